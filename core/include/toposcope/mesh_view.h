@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "toposcope/types.h"
+
+namespace toposcope {
+
+/// A triangle mesh as plugins see it: contiguous arrays and adjacency in compressed rows, owned by the kernel.
+/// Guaranteed: finite positions, indices in range, at least one face, no face with a repeated vertex.
+/// Not guaranteed: closed, oriented, manifold, connected.
+struct MeshView {
+  std::span<const Vec3> positions;
+  std::span<const Triangle> triangles;
+  std::span<const Index> neighbor_offsets;  ///< size vertices + 1, into `neighbors`
+  std::span<const Index> neighbors;         ///< one-rings, ascending within a row
+  std::span<const Index> face_offsets;      ///< size vertices + 1, into `faces`
+  std::span<const Index> faces;             ///< faces around a vertex, ascending within a row
+  Box box;                                  ///< bb(O)
+  double mean_edge = 0;                     ///< mean length of the undirected edges
+
+  Index vertex_count() const { return static_cast<Index>(positions.size()); }
+  Index face_count() const { return static_cast<Index>(triangles.size()); }
+  std::span<const Index> one_ring(Index v) const {
+    return neighbors.subspan(neighbor_offsets[v], neighbor_offsets[v + 1] - neighbor_offsets[v]);
+  }
+  std::span<const Index> faces_of(Index v) const {
+    return faces.subspan(face_offsets[v], face_offsets[v + 1] - face_offsets[v]);
+  }
+};
+
+}  // namespace toposcope

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "toposcope/context.h"
+#include "toposcope/options.h"
+#include "toposcope/shapes.h"
+
+namespace toposcope {
+
+/// A constructed feature as a relation sees it.
+struct RelationOperand {
+  const FittedShape* shape = nullptr;
+  std::span<const Vec3> points;  ///< of its working sets
+  Box box;                       ///< bb(w)
+};
+
+struct RelationInput {
+  std::span<const RelationOperand> features;  ///< in the order of the model, as many as the relation takes
+  Box object_box;
+  double mean_edge = 0;
+};
+
+/// How far a relation is from holding, in its natural unit (rad or mesh unit; the descriptor says which), and
+/// what the kernel needs to weigh it (design: likelihood of "holds" against unrelated features).
+struct RelationResult {
+  bool applicable = true;      ///< false: these shapes cannot stand in this relation; `why` says so
+  std::string why;
+  double residual = 0;         ///< >= 0
+  double tolerance = 0;        ///< crisp form: satisfied when residual <= tolerance; > 0
+  double sd = 0;               ///< of the residual, from the fits' own uncertainty
+  double slack = 0;            ///< width of the set of values at which the residual is 0 (a range's max - min)
+  double clutter_density = 0;  ///< density of the residual (or, within the slack, of the value) for unrelated features
+  double samples = 1;          ///< independent comparisons that the residual summarises (rms over so many)
+};
+
+/// Tests one relationship between two or more constructed features (dissertation 4.6). Thread-safe.
+class RelationTester {
+ public:
+  virtual ~RelationTester() = default;
+  /// \param arguments  the model's parameters of the relationship (`max` of a centroid distance), evaluated
+  virtual RelationResult test(const RelationInput& input, const Options& arguments, Context& context) const = 0;
+};
+
+}  // namespace toposcope

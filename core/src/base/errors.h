@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace toposcope {
+
+/// An error meant for the user: names the place, the value, the constraint and the remedy. `exit_code` is what
+/// the program returns for it.
+class Error : public std::runtime_error {
+ public:
+  Error(const std::string& message, int exit_code) : std::runtime_error(message), exit_code(exit_code) {}
+  int exit_code;
+};
+
+/// Bad usage, bad model, bad pipeline: exit code 2.
+struct UsageError : Error {
+  explicit UsageError(const std::string& message) : Error(message, 2) {}
+};
+
+/// A mesh that cannot be used: exit code 3.
+struct MeshError : Error {
+  explicit MeshError(const std::string& message) : Error(message, 3) {}
+};
+
+/// A plugin that cannot be used: exit code 4.
+struct PluginError : Error {
+  PluginError(const std::string& plugin, const std::string& message)
+      : Error("plugin '" + plugin + "': " + message, 4), plugin(plugin) {}
+  std::string plugin;
+};
+
+}  // namespace toposcope

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "mesh/mesh.h"
+
+namespace toposcope {
+
+/// Reads PLY (ASCII, binary of both byte orders), OBJ, STL (ASCII, binary; corners at equal positions are welded),
+/// OFF. The format is told by the content, then by the extension. Polygons are cut into triangles.
+/// Sizes in headers are never trusted before the bytes are there; the locale plays no role.
+/// \throw MeshError  "file:line: what is wrong, and the remedy" (binary: byte offset)
+TriangleSoup read_soup(const std::filesystem::path& path);
+
+/// Reads and checks.
+Mesh read_mesh(const std::filesystem::path& path);
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+struct FaceAttributes {
+  std::span<const Rgb> colors;          ///< one per triangle, or empty
+  std::span<const std::int32_t> labels; ///< one per triangle, or empty
+};
+
+/// Writes by extension: .ply (binary little-endian, with face attributes), .obj, .stl (binary), .off. The file appears
+/// whole or not at all.
+/// \throw MeshError unknown extension; UsageError when the file cannot be written
+void write_mesh(const std::filesystem::path& path, std::span<const Vec3> positions,
+                std::span<const Triangle> triangles, const FaceAttributes& attributes = {});
+
+/// Writes text so that the file appears whole or not at all. \throw UsageError
+void write_file(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace toposcope

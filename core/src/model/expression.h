@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "model/source_location.h"
+#include "toposcope/types.h"
+
+namespace toposcope {
+
+/// The boxes that an expression may name: `bb(O)` the object's, `bb(w)` the working sets' at hand.
+struct ExpressionBoxes {
+  Box object;
+  Box worksets;
+};
+
+/// A checked arithmetic expression over box sides: numbers, + - * / ( ), min, max, bb(O).a|b|c, bb(w).a|b|c, pi.
+class Expression {
+ public:
+  /// \param where  of the first character of `text`, so that errors name file:line:column
+  /// \throw UsageError  syntax; a sum or comparison of unlike dimensions
+  static Expression parse(std::string_view text, const SourceLocation& where);
+
+  double evaluate(const ExpressionBoxes& boxes) const;
+  int dimension() const;        ///< power of length: bb(O).a has 1, a number 0
+  bool uses_worksets() const;   ///< names bb(w)
+  const std::string& text() const;
+
+ private:
+  struct Node;
+  std::shared_ptr<const Node> root_;
+  std::string text_;
+  friend struct ExpressionParser;
+};
+
+/// `low < r < high` with one free name, which stands for the measure; either bound may be absent (`r < high`,
+/// `low < r`); > is accepted. `<=` equals `<`: the bounds are floating-point.
+struct ParsedRange {
+  std::string variable;
+  std::optional<Expression> low, high;
+};
+/// \param dimension  of the measure: bounds of another dimension are an error
+ParsedRange parse_range(std::string_view text, const SourceLocation& where, int dimension);
+
+}  // namespace toposcope

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/expression.h"
+#include "model/source_location.h"
+#include "toposcope/types.h"
+
+namespace toposcope {
+
+// ---- abstract symbolic model (dissertation 3.2) ----
+
+struct SpatialObject {
+  std::string name;
+  int dimension = 0;  ///< 0 point, 1 line, 2 surface, 3 volume
+  SourceLocation where;
+};
+
+/// A directed link of one of the networks, by index into AbstractModel::objects. The inverse is implied.
+struct Link {
+  Index from = 0, to = 0;
+  std::string kind;  ///< "bounded-by"; "has-part"; "adjacent-to" or a direction: up, down, front, back, right, left
+  SourceLocation where;
+};
+
+struct AbstractModel {
+  std::vector<SpatialObject> objects;
+  std::vector<Link> topology;      ///< from is bounded by to; to has dimension one less
+  std::vector<Link> parts;         ///< from has part to; same dimension; no cycles
+  std::vector<Link> associations;  ///< adjacent-to, and directions along the object's own symbolic axes
+  Index root = 0;                  ///< the one object that is part of nothing and bounds nothing
+};
+
+// ---- working model (3.3) ----
+
+/// low < measure < high, in the unit of the measure.
+struct Range {
+  std::string measure;  ///< `radius`, `length`, `length_2`
+  std::optional<Expression> low, high;
+  SourceLocation where;
+};
+
+/// A plugin named in a model, with its arguments as written (checked against the plugin's argument table).
+struct ShapeSpec {
+  std::string plugin;
+  std::vector<std::pair<std::string, std::string>> arguments;
+  SourceLocation where;
+};
+
+struct ModelFeature {
+  std::string name;
+  std::string realises;               ///< abstract object; empty when the model has no abstract part
+  std::vector<std::string> worksets;  ///< one type per working set of the group
+  ShapeSpec shape;
+  std::vector<Range> ranges;
+  double detectability = 1;  ///< 0 to 1
+  SourceLocation where;
+};
+
+struct Relationship {
+  std::string name;                     ///< r1, r2, ...
+  std::string plugin;                   ///< relation type = plugin id
+  std::vector<Index> features;          ///< by index into WorkingModel::features
+  std::vector<std::pair<std::string, Expression>> arguments;
+  SourceLocation where;
+};
+
+/// A class of objects told apart by which relationships hold (Tables 5.5, 6.2): exactly the features that these
+/// relationships name are present, and every one of them is satisfied.
+struct ClassRule {
+  std::string name;
+  std::vector<Index> relationships;
+  SourceLocation where;
+};
+
+struct Model {
+  std::string name, summary, citation;
+  std::string file;
+  AbstractModel abstract;
+  std::vector<ModelFeature> features;
+  std::vector<Relationship> relationships;
+  std::vector<ClassRule> classes;  ///< empty for most models
+};
+
+}  // namespace toposcope
