@@ -27,8 +27,9 @@ struct LabelingVariable {
 struct LabelingConstraint {
   std::string name;
   std::vector<Index> scope;
-  std::vector<float> costs;             ///< minus log likelihood ratio of "holds" against unrelated features
-  std::vector<std::uint8_t> satisfied;  ///< crisp form
+  std::vector<float> costs;       ///< minus log likelihood ratio of "holds" against unrelated features
+  std::vector<float> violations;  ///< residual / tolerance: satisfied where <= 1, infinite where it cannot apply; 0 where
+                                  ///< a variable is missing
 };
 
 /// Variables, domains, constraints and exclusions; knows nothing of meshes (dissertation 3.4.2, "consistent

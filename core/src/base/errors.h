@@ -10,7 +10,7 @@ namespace toposcope {
 /// the program returns for it.
 class Error : public std::runtime_error {
  public:
-  Error(const std::string& message, int exit_code) : std::runtime_error(message), exit_code(exit_code) {}
+  Error(const std::string& message, int code) : std::runtime_error(message), exit_code(code) {}
   int exit_code;
 };
 
@@ -26,8 +26,8 @@ struct MeshError : Error {
 
 /// A plugin that cannot be used: exit code 4.
 struct PluginError : Error {
-  PluginError(const std::string& plugin, const std::string& message)
-      : Error("plugin '" + plugin + "': " + message, 4), plugin(plugin) {}
+  PluginError(const std::string& id, const std::string& message)
+      : Error("plugin '" + id + "': " + message, 4), plugin(id) {}
   std::string plugin;
 };
 

@@ -22,15 +22,15 @@ Mesh read_mesh(const std::filesystem::path& path);
 using Rgb = std::array<std::uint8_t, 3>;
 
 struct FaceAttributes {
-  std::span<const Rgb> colors;          ///< one per triangle, or empty
-  std::span<const std::int32_t> labels; ///< one per triangle, or empty
+  std::span<const Rgb> colors;           ///< one per triangle, or empty
+  std::span<const std::int32_t> labels;  ///< one per triangle, or empty
 };
 
 /// Writes by extension: .ply (binary little-endian, with face attributes), .obj, .stl (binary), .off. The file appears
 /// whole or not at all.
 /// \throw MeshError unknown extension; UsageError when the file cannot be written
-void write_mesh(const std::filesystem::path& path, std::span<const Vec3> positions,
-                std::span<const Triangle> triangles, const FaceAttributes& attributes = {});
+void write_mesh(const std::filesystem::path& path, std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                const FaceAttributes& attributes = {});
 
 /// Writes text so that the file appears whole or not at all. \throw UsageError
 void write_file(const std::filesystem::path& path, std::string_view content);

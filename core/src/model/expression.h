@@ -25,13 +25,15 @@ class Expression {
   static Expression parse(std::string_view text, const SourceLocation& where);
 
   double evaluate(const ExpressionBoxes& boxes) const;
-  int dimension() const;        ///< power of length: bb(O).a has 1, a number 0
-  bool uses_worksets() const;   ///< names bb(w)
-  const std::string& text() const;
+  int dimension() const;            ///< power of length: bb(O).a has 1, a number 0
+  bool fits(int dimension) const;   ///< has that dimension; the literal 0 fits every dimension
+  bool uses_object() const;         ///< names bb(O)
+  bool uses_worksets() const;       ///< names bb(w)
+  const std::string& text() const;  ///< as written
 
  private:
-  struct Node;
-  std::shared_ptr<const Node> root_;
+  struct Program;
+  std::shared_ptr<const Program> program_;
   std::string text_;
   friend struct ExpressionParser;
 };
@@ -42,7 +44,16 @@ struct ParsedRange {
   std::string variable;
   std::optional<Expression> low, high;
 };
+
+/// For `parse_range` where nobody knows the measure's dimension: its bounds must still agree with each other.
+inline constexpr int any_dimension = -1000;
+
+/// The kind of quantity in words: "a number", "a length", "an area".
+std::string dimension_in_words(int dimension);
+
+/// \param where      of the first character of `text`
 /// \param dimension  of the measure: bounds of another dimension are an error
+/// \throw UsageError  syntax, no or several free names, unlike dimensions, a range between constants that holds nothing
 ParsedRange parse_range(std::string_view text, const SourceLocation& where, int dimension);
 
 }  // namespace toposcope

@@ -58,14 +58,15 @@ struct ModelFeature {
   std::vector<std::string> worksets;  ///< one type per working set of the group
   ShapeSpec shape;
   std::vector<Range> ranges;
-  double detectability = 1;  ///< 0 to 1
+  std::optional<Expression> max_fit_error;  ///< t_err of 3.4.1, a length
+  double detectability = 1;                 ///< 0 to 1
   SourceLocation where;
 };
 
 struct Relationship {
-  std::string name;                     ///< r1, r2, ...
-  std::string plugin;                   ///< relation type = plugin id
-  std::vector<Index> features;          ///< by index into WorkingModel::features
+  std::string name;             ///< r1, r2, ...
+  std::string plugin;           ///< relation type = plugin id
+  std::vector<Index> features;  ///< by index into WorkingModel::features
   std::vector<std::pair<std::string, Expression>> arguments;
   SourceLocation where;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -12,8 +13,15 @@
 
 namespace toposcope {
 
+struct PluginDescriptor;
+
 enum class PluginKind { worksets, shapes, relations, labelers, filters };
+inline constexpr std::array plugin_kinds = {PluginKind::worksets, PluginKind::shapes, PluginKind::relations,
+                                            PluginKind::labelers, PluginKind::filters};
+/// As in folders and manifests: "shapes".
 std::string_view to_string(PluginKind kind);
+/// In a sentence: "shape".
+std::string_view singular(PluginKind kind);
 std::optional<PluginKind> plugin_kind(std::string_view name);
 
 /// OptionSpec as read from a manifest.
@@ -42,5 +50,26 @@ struct PluginManifest {
   /// The provided name that matches, '#' standing for a number: `length_3` matches `length_#`.
   const ProvidedRow* find_provided(std::string_view name) const;
 };
+
+/// The manifest of a compiled descriptor whose ABI has been checked; `file` and `library` are left empty.
+/// \throw PluginError  the descriptor is incomplete or contradicts itself
+PluginManifest manifest_from_descriptor(const PluginDescriptor& descriptor);
+
+/// Checks what types cannot say: form of id and version, known names, sound option tables.
+/// \throw UsageError  names the field
+void check_manifest(const PluginManifest& manifest);
+
+/// Fields in which the two differ, each as "version: '1.0.0' in the manifest, '1.1.0' in the library"; `file` and
+/// `library` are not compared.
+std::vector<std::string> differences(const PluginManifest& manifest, const PluginManifest& library);
+
+/// JSON text (schemas/plugin.schema.json) with a newline at its end.
+std::string manifest_to_json(const PluginManifest& manifest);
+
+/// Reads `<id>.plugin.json`; the library is the file `<id>.so` beside it (it need not exist).
+/// \throw UsageError  names file and field
+PluginManifest read_manifest(const std::filesystem::path& file);
+
+inline constexpr std::string_view manifest_suffix = ".plugin.json";
 
 }  // namespace toposcope

@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# find_package(Toposcope): targets Toposcope::api and Toposcope::geometry, function toposcope_add_plugin.
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3 3.4)
+include(${CMAKE_CURRENT_LIST_DIR}/ToposcopeTargets.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/ToposcopePlugin.cmake)

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Third-party libraries that plugins link, as targets under our own names.
+
+# Debian's Ceres::ceres is the static library and adds 3.8 MB to every plugin that links it: take the shared one.
+if(NOT TARGET Toposcope::ceres_shared)
+  find_package(Eigen3 3.4 REQUIRED)
+  find_library(TOPOSCOPE_CERES_LIBRARY NAMES libceres.so REQUIRED)
+  find_library(TOPOSCOPE_GLOG_LIBRARY NAMES libglog.so REQUIRED)
+  find_path(TOPOSCOPE_CERES_INCLUDE_DIR ceres/ceres.h REQUIRED)
+  add_library(Toposcope::ceres_shared SHARED IMPORTED GLOBAL)
+  set_target_properties(Toposcope::ceres_shared PROPERTIES
+    IMPORTED_LOCATION ${TOPOSCOPE_CERES_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${TOPOSCOPE_CERES_INCLUDE_DIR}
+    INTERFACE_LINK_LIBRARIES "Eigen3::Eigen;${TOPOSCOPE_GLOG_LIBRARY}")
+endif()
+
+# The C library and its header-only C++ wrapper (nlopt.hpp).
+if(NOT TARGET Toposcope::nlopt)
+  find_library(TOPOSCOPE_NLOPT_LIBRARY NAMES libnlopt.so REQUIRED)
+  find_path(TOPOSCOPE_NLOPT_INCLUDE_DIR nlopt.hpp REQUIRED)
+  add_library(Toposcope::nlopt SHARED IMPORTED GLOBAL)
+  set_target_properties(Toposcope::nlopt PROPERTIES
+    IMPORTED_LOCATION ${TOPOSCOPE_NLOPT_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${TOPOSCOPE_NLOPT_INCLUDE_DIR})
+endif()

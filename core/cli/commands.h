@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace toposcope::cli {
+
+namespace fs = std::filesystem;
+
+/// What every command that works on meshes takes.
+struct CommonOptions {
+  std::vector<fs::path> plugin_dirs;
+  std::string pipeline = "default";
+  std::string labeler;
+  std::vector<std::string> overrides;  ///< station.option=value
+  unsigned threads = 0;
+  std::uint64_t seed = 1;
+  bool quiet = false, verbose = false, json = false;
+};
+
+struct RunOptions : CommonOptions {
+  std::vector<fs::path> meshes;
+  std::string model;
+  fs::path out;
+};
+
+struct ClassifyOptions : CommonOptions {
+  std::vector<fs::path> meshes;
+  std::string models;
+};
+
+struct ModelOptions {
+  std::vector<fs::path> plugin_dirs;
+  std::string model;
+  std::string format = "text";  ///< show: text or dot
+};
+
+struct PluginsOptions {
+  std::vector<fs::path> plugin_dirs;
+  std::string id;
+  std::vector<fs::path> paths;
+  bool json = false;
+};
+
+struct SampleOptions : CommonOptions {
+  std::string kind;
+  std::uint32_t faces = 20000;
+  double noise = 0;
+  std::map<std::string, std::string> parameters;
+  fs::path out;
+  bool list = false;
+};
+
+/// Each returns the exit code; errors leave as exceptions (base/errors.h).
+int run(const RunOptions& options);
+int classify(const ClassifyOptions& options);
+int model_check(const ModelOptions& options);
+int model_show(const ModelOptions& options);
+int plugins_list(const PluginsOptions& options);
+int plugins_describe(const PluginsOptions& options);
+int plugins_check(const PluginsOptions& options);
+int sample(const SampleOptions& options);
+
+}  // namespace toposcope::cli

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The program: reads the command line, runs a command, turns errors into messages and exit codes.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+
+#include "base/errors.h"
+#include "commands.h"
+
+namespace {
+
+using namespace toposcope::cli;
+
+void add_plugin_dirs(CLI::App* app, std::vector<fs::path>& dirs) {
+  app->add_option("--plugin-dir", dirs, "further folders with plugins")->type_name("DIR");
+}
+
+void add_common(CLI::App* app, CommonOptions& options) {
+  add_plugin_dirs(app, options.plugin_dirs);
+  app->add_option("--pipeline", options.pipeline, "name or file of the pipeline")->capture_default_str();
+  app->add_option("--labeler", options.labeler, "labeler to use instead of the pipeline's")->type_name("ID");
+  app->add_option("--set", options.overrides, "override one value: station.option=value")->type_name("S.O=V");
+  app->add_option("--threads", options.threads, "threads; 0: one per processor")->capture_default_str();
+  app->add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
+  app->add_flag("-q,--quiet", options.quiet, "errors only");
+  app->add_flag("-v,--verbose", options.verbose, "say more");
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app{"Finds, names and measures the features of a class of objects on triangle meshes.", "toposcope"};
+  app.set_version_flag("--version", TOPOSCOPE_VERSION);
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done; 2 bad usage, model or pipeline; 3 a mesh that cannot be used; 4 a plugin that cannot "
+             "be used.");
+  int code = 0;
+
+  RunOptions run_options;
+  CLI::App* run_app = app.add_subcommand("run", "label the features of a model on meshes");
+  run_app->add_option("mesh", run_options.meshes, "PLY, OBJ, STL or OFF files")->required()->type_name("MESH...");
+  run_app->add_option("--model", run_options.model, "name or file of the model")->required();
+  run_app->add_option("--out", run_options.out, "write result.json and labels.ply to DIR/<mesh>/")->type_name("DIR");
+  run_app->add_flag("--json", run_options.json, "print the results as JSON lines");
+  add_common(run_app, run_options);
+  run_app->callback([&] { code = run(run_options); });
+
+  ClassifyOptions classify_options;
+  CLI::App* classify_app = app.add_subcommand("classify", "which class of objects explains a mesh best");
+  classify_app->add_option("mesh", classify_options.meshes, "PLY, OBJ, STL or OFF files")
+      ->required()
+      ->type_name("MESH...");
+  classify_app->add_option("--models", classify_options.models, "a folder of models, or names separated by commas")
+      ->required()
+      ->type_name("DIR|LIST");
+  classify_app->add_flag("--json", classify_options.json, "print a JSON object per mesh");
+  add_common(classify_app, classify_options);
+  classify_app->callback([&] { code = classify(classify_options); });
+
+  SampleOptions sample_options;
+  CLI::App* sample_app = app.add_subcommand("sample", "make a parametric object and its truth");
+  sample_app->add_option("kind", sample_options.kind, "cup, tee; see --list");
+  sample_app->add_flag("--list", sample_options.list, "list the kinds and their parameters");
+  sample_app->add_option("-o,--out", sample_options.out, "mesh to write; its truth goes beside it")->type_name("MESH");
+  sample_app->add_option("--faces", sample_options.faces, "number of faces")->capture_default_str();
+  sample_app->add_option("--noise", sample_options.noise, "sd of the noise along the normal, part of the diagonal")
+      ->capture_default_str();
+  std::vector<std::string> assignments;
+  sample_app->add_option("--set", assignments, "one parameter: name=value")->type_name("P=V");
+  sample_app->add_option("--seed", sample_options.seed, "seed of the noise")->capture_default_str();
+  sample_app->add_option("--threads", sample_options.threads, "threads; 0: one per processor")->capture_default_str();
+  sample_app->callback([&] {
+    for (const std::string& assignment : assignments) {
+      const std::size_t equals = assignment.find('=');
+      if (equals == std::string::npos)
+        throw toposcope::UsageError("--set " + assignment + ": expected name=value; see toposcope sample --list");
+      sample_options.parameters[assignment.substr(0, equals)] = assignment.substr(equals + 1);
+    }
+    code = sample(sample_options);
+  });
+
+  ModelOptions model_options;
+  CLI::App* model_app = app.add_subcommand("model", "check or show a model");
+  model_app->require_subcommand(1);
+  CLI::App* model_check_app = model_app->add_subcommand("check", "report all errors of a model file");
+  CLI::App* model_show_app = model_app->add_subcommand("show", "print a model's networks, features and relationships");
+  for (CLI::App* sub : {model_check_app, model_show_app}) {
+    sub->add_option("model", model_options.model, "name or file")->required();
+    add_plugin_dirs(sub, model_options.plugin_dirs);
+  }
+  model_show_app->add_option("--format", model_options.format, "text or dot (Graphviz)")
+      ->check(CLI::IsMember({"text", "dot"}))
+      ->capture_default_str();
+  model_check_app->callback([&] { code = model_check(model_options); });
+  model_show_app->callback([&] { code = model_show(model_options); });
+
+  PluginsOptions plugins_options;
+  CLI::App* plugins_app = app.add_subcommand("plugins", "list, describe or check plugins");
+  plugins_app->require_subcommand(1);
+  CLI::App* list_app = plugins_app->add_subcommand("list", "all plugins that can be found");
+  CLI::App* describe_app = plugins_app->add_subcommand("describe", "a plugin's options and what it provides");
+  CLI::App* check_app = plugins_app->add_subcommand("check", "load plugins and report what is wrong with them");
+  describe_app->add_option("id", plugins_options.id, "the plugin's id")->required();
+  check_app->add_option("path", plugins_options.paths, "libraries or folders; without any, all that can be found");
+  for (CLI::App* sub : {list_app, describe_app, check_app}) {
+    add_plugin_dirs(sub, plugins_options.plugin_dirs);
+    sub->add_flag("--json", plugins_options.json, "print JSON");
+  }
+  list_app->callback([&] { code = plugins_list(plugins_options); });
+  describe_app->callback([&] { code = plugins_describe(plugins_options); });
+  check_app->callback([&] { code = plugins_check(plugins_options); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const toposcope::Error& error) {
+    std::fprintf(stderr, "toposcope: %s\n", error.what());
+    return error.exit_code;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "toposcope: out of memory\n");
+    return 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "toposcope: internal error: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/errors.h"
+#include "base/nearest_name.h"
+#include "commands.h"
+#include "plugin/option_check.h"
+#include "session.h"
+
+namespace toposcope::cli {
+namespace {
+
+constexpr PluginKind kinds[] = {PluginKind::filters, PluginKind::worksets, PluginKind::shapes, PluginKind::relations,
+                                PluginKind::labelers};
+
+void print_table(const char* title, const std::vector<OptionRow>& rows) {
+  if (rows.empty()) return;
+  fmt::print("\n{}:\n", title);
+  for (const OptionRow& row : rows) {
+    fmt::print("  {}  ({}", row.name, describe_constraint(row));
+    fmt::print("{})\n      {}\n", row.default_value.empty() ? "; must be given" : "; default " + row.default_value,
+               row.meaning);
+  }
+}
+
+const PluginManifest& find(const PluginCatalog& catalog, const std::string& id) {
+  std::vector<std::string> known;
+  for (PluginKind kind : kinds) {
+    if (const PluginManifest* manifest = catalog.find(kind, id)) return *manifest;
+    for (const PluginManifest* manifest : catalog.all(kind)) known.push_back(manifest->id);
+  }
+  for (const PluginProblem& problem : catalog.problems())
+    if (problem.id == id) throw PluginError(id, problem.message);
+  const std::string near = nearest_name(id, known);
+  throw UsageError("no plugin '" + id + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+                   "; toposcope plugins list shows all");
+}
+
+}  // namespace
+
+int plugins_list(const PluginsOptions& options) {
+  const PluginCatalog catalog = open_catalog(options.plugin_dirs, false);
+  if (options.json) {
+    nlohmann::ordered_json root = {{"plugins", nlohmann::json::array()}, {"problems", nlohmann::json::array()}};
+    for (PluginKind kind : kinds)
+      for (const PluginManifest* plugin : catalog.all(kind))
+        root["plugins"].push_back({{"kind", to_string(kind)},
+                                   {"id", plugin->id},
+                                   {"version", plugin->version},
+                                   {"summary", plugin->summary},
+                                   {"library", plugin->library.string()}});
+    for (const PluginProblem& problem : catalog.problems())
+      root["problems"].push_back({{"file", problem.file.string()}, {"message", problem.message}});
+    fmt::print("{}\n", root.dump(1));
+    return 0;
+  }
+  for (PluginKind kind : kinds) {
+    fmt::print("{}\n", to_string(kind));
+    for (const PluginManifest* plugin : catalog.all(kind))
+      fmt::print("  {:<22}{:<8} {}\n", plugin->id, plugin->version, plugin->summary);
+  }
+  if (!catalog.problems().empty()) fmt::print("cannot be used\n");
+  for (const PluginProblem& problem : catalog.problems()) fmt::print("  {}\n", problem.message);
+  return 0;
+}
+
+int plugins_describe(const PluginsOptions& options) {
+  const PluginCatalog catalog = open_catalog(options.plugin_dirs, false);
+  const PluginManifest& plugin = find(catalog, options.id);
+  if (options.json) {
+    fmt::print("{}", manifest_to_json(plugin));
+    return 0;
+  }
+  fmt::print("{} {} ({})\n{}\n", plugin.id, plugin.version, to_string(plugin.kind), plugin.summary);
+  if (!plugin.citation.empty()) fmt::print("source: {}\n", plugin.citation);
+  if (!plugin.unit.empty()) fmt::print("residual in: {}\n", plugin.unit);
+  if (!plugin.provides.empty()) fmt::print("\nprovides:\n");
+  for (const ProvidedRow& row : plugin.provides) fmt::print("  {:<14}{}\n", row.name, row.meaning);
+  print_table("options, set in the pipeline or by --set", plugin.options);
+  print_table("arguments, given in the model", plugin.arguments);
+  return 0;
+}
+
+int plugins_check(const PluginsOptions& options) {
+  std::vector<PluginFolder> folders;
+  for (const fs::path& path : options.paths) {
+    if (!fs::exists(path)) throw UsageError(path.string() + ": no such file or folder");
+    folders.push_back({fs::absolute(fs::is_directory(path) ? path : path.parent_path()), true});
+  }
+  if (folders.empty()) folders = plugin_search_path(options.plugin_dirs);
+  PluginHost host{PluginCatalog(folders)};
+  int bad = 0, good = 0;
+  for (const PluginProblem& problem : host.catalog().problems()) {
+    fmt::print("FAIL  {}\n", problem.message);
+    ++bad;
+  }
+  for (PluginKind kind : kinds)
+    for (const PluginManifest* plugin : host.catalog().all(kind)) {
+      const bool asked = options.paths.empty() ||
+                         std::any_of(options.paths.begin(), options.paths.end(), [&](const fs::path& path) {
+                           return fs::is_directory(path) || fs::absolute(path).stem() == plugin->library.stem();
+                         });
+      if (!asked) continue;
+      try {
+        host.load(kind, plugin->id);
+        fmt::print("ok    {} {} ({}): {}\n", plugin->id, plugin->version, to_string(kind), plugin->library.string());
+        ++good;
+      } catch (const Error& error) {
+        fmt::print("FAIL  {}\n", error.what());
+        ++bad;
+      }
+    }
+  fmt::print("{} usable, {} not\n", good, bad);
+  if (good + bad == 0) throw UsageError("no plugin found; give libraries or folders that hold <id>.plugin.json files");
+  return bad == 0 ? 0 : 4;
+}
+
+}  // namespace toposcope::cli

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "resources.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "base/errors.h"
+#include "base/nearest_name.h"
+
+namespace toposcope::cli {
+namespace fs = std::filesystem;
+namespace {
+
+std::vector<fs::path> folders(const std::string& kind) {
+  std::vector<fs::path> result;
+  std::error_code error;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    result.push_back(executable.parent_path().parent_path() / kind);
+    result.push_back(executable.parent_path().parent_path() / "share" / "toposcope" / kind);
+  }
+  if (const char* path = std::getenv("TOPOSCOPE_DATA_PATH")) {
+    std::istringstream stream(path);
+    for (std::string folder; std::getline(stream, folder, ':');)
+      if (fs::path(folder).is_absolute()) result.push_back(fs::path(folder) / kind);
+  }
+  return result;
+}
+
+std::vector<fs::path> yaml_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+fs::path find_resource(const std::string& kind, const std::string& name) {
+  const fs::path given(name);
+  const std::string one = kind.substr(0, kind.size() - 1);
+  if (given.extension() == ".yaml" || given.extension() == ".yml") {
+    if (!fs::is_regular_file(given)) throw UsageError(name + ": no such " + one + " file");
+    return given;
+  }
+  std::vector<std::string> known;
+  for (const fs::path& folder : folders(kind)) {
+    const fs::path file = folder / (name + ".yaml");
+    if (fs::is_regular_file(file)) return file;
+    std::error_code error;
+    for (const auto& entry : fs::recursive_directory_iterator(folder, error))
+      if (entry.path().extension() == ".yaml")
+        known.push_back(fs::relative(entry.path(), folder).replace_extension().string());
+  }
+  std::sort(known.begin(), known.end());
+  std::string message = "no " + one + " '" + name + "'";
+  if (const std::string near = nearest_name(name, known); !near.empty()) message += "; did you mean '" + near + "'?";
+  message += " There are:";
+  for (const std::string& each : known) message += " " + each;
+  throw UsageError(message + "; or give a file that ends in .yaml");
+}
+
+std::vector<fs::path> find_models(const std::string& folder_or_list) {
+  if (fs::is_directory(folder_or_list)) {
+    const std::vector<fs::path> files = yaml_files(folder_or_list);
+    if (files.empty()) throw UsageError(folder_or_list + ": no .yaml file in this folder; give a folder of models");
+    return files;
+  }
+  std::vector<fs::path> files;
+  std::istringstream stream(folder_or_list);
+  for (std::string name; std::getline(stream, name, ',');) files.push_back(find_resource("models", name));
+  if (files.empty()) throw UsageError("--models is empty; give a folder, or names separated by commas");
+  return files;
+}
+
+}  // namespace toposcope::cli

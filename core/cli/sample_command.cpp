@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/errors.h"
+#include "base/run_context.h"
+#include "commands.h"
+#include "io/mesh_io.h"
+#include "plugin/option_check.h"
+#include "sample/sample.h"
+
+namespace toposcope::cli {
+namespace {
+
+void list_kinds() {
+  for (const SampleKind& kind : sample_kinds()) {
+    fmt::print("{}: {}\n", kind.name, kind.summary);
+    for (const OptionRow& row : kind.parameters)
+      fmt::print("  {:<20} {:<9} {} [{}; default {}]\n", row.name, row.unit, row.meaning, describe_constraint(row),
+                 row.default_value);
+    fmt::print("\n");
+  }
+}
+
+SampleRequest request_of(const SampleOptions& options) {
+  SampleRequest request;
+  request.kind = options.kind;
+  request.faces = options.faces;
+  request.noise_rel = options.noise;
+  request.seed = options.seed;
+  const std::vector<SampleKind> kinds = sample_kinds();
+  const auto kind =
+      std::find_if(kinds.begin(), kinds.end(), [&](const SampleKind& k) { return k.name == options.kind; });
+  for (const auto& [name, value] : options.parameters)
+    request.parameters[name] =
+        kind == kinds.end() ? 0 : check_option(kind->parameters, name, value, "sample '" + kind->name + "'").number;
+  return request;
+}
+
+}  // namespace
+
+int sample(const SampleOptions& options) {
+  if (options.list) {
+    list_kinds();
+    return 0;
+  }
+  if (options.kind.empty()) throw UsageError("sample: name a kind of object; toposcope sample --list shows them");
+  if (options.out.empty()) throw UsageError("sample: where to? give the mesh to write with -o");
+  RunSettings settings;
+  settings.threads = options.threads;
+  settings.seed = options.seed;
+  RunContext context(settings);
+  const Sample made = make_sample(request_of(options), context);
+  const fs::path truth = fs::path(options.out).replace_extension(".truth.json");
+  write_mesh(options.out, made.mesh.positions, made.mesh.triangles);
+  write_file(truth, truth_json(made, options.out.filename().string()));
+  fmt::print("{}: {} with {} faces\n{}: its truth\n", options.out.string(), made.kind, made.mesh.triangles.size(),
+             truth.string());
+  return 0;
+}
+
+}  // namespace toposcope::cli

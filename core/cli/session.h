@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "base/run_context.h"
+#include "commands.h"
+#include "model/model.h"
+#include "pipeline/pipeline_manifest.h"
+#include "pipeline/stations.h"
+#include "plugin/plugin_host.h"
+
+namespace toposcope::cli {
+
+/// What the commands that work on meshes share: plugins, pipeline, log, progress, Ctrl-C.
+class Session {
+ public:
+  explicit Session(const CommonOptions& options);
+  ~Session();
+
+  PluginHost& host() { return host_; }
+  RunContext& context() { return *context_; }
+  Stations stations(const Model& model) { return make_stations(host_, pipeline_, model); }
+
+  /// One line on the terminal, replaced by the next; nothing in a pipe. Empty clears it.
+  void status(const std::string& text);
+
+ private:
+  PluginHost host_;
+  PipelineManifest pipeline_;
+  bool terminal_;
+  std::string status_;
+  std::unique_ptr<RunContext> context_;
+};
+
+/// The plugins that can be found; a warning on stderr about each that cannot be used.
+PluginCatalog open_catalog(const std::vector<fs::path>& plugin_dirs, bool warn = true);
+
+/// Runs `body` for each mesh: one that fails is reported on stderr and the others are still done.
+/// \return the exit code: that of the first failure, 0 if there was none
+int for_each_mesh(const std::vector<fs::path>& meshes, Session& session,
+                  const std::function<void(const fs::path&)>& body);
+
+}  // namespace toposcope::cli

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "convex_hull.h"
+
+namespace toposcope::geometry {
+namespace {
+
+constexpr double straight_tolerance = 1e-12;  ///< twice the area of three corners in line / extent squared
+
+}  // namespace
+
+using Eigen::Vector2d;
+
+std::vector<Index> convex_polygon(std::span<const Vector2d> points) {
+  std::vector<Index> order(points.size()), polygon;
+  std::iota(order.begin(), order.end(), Index{0});
+  std::sort(order.begin(), order.end(), [&](Index i, Index j) {
+    const auto &p = points[i], &q = points[j];
+    return p.x() != q.x() ? p.x() < q.x() : p.y() != q.y() ? p.y() < q.y() : i < j;
+  });
+  double extent = 0;
+  for (const auto& p : points) extent = std::max(extent, (p - points[order[0]]).cwiseAbs().maxCoeff());
+  const double straight = straight_tolerance * extent * extent;
+  const auto turns_left = [&](Index i, Index j, Index k) {
+    const Vector2d u = points[j] - points[i], v = points[k] - points[j];
+    return u.x() * v.y() - u.y() * v.x() > straight;
+  };
+  for (int side = 0; side < 2; ++side) {  // lower chain from left to right, upper chain back
+    const std::size_t base = polygon.size();
+    for (Index i : order) {
+      while (polygon.size() >= base + 2 && !turns_left(polygon.end()[-2], polygon.back(), i)) polygon.pop_back();
+      polygon.push_back(i);
+    }
+    polygon.pop_back();  // it begins the other chain
+    std::reverse(order.begin(), order.end());
+  }
+  if (polygon.empty() && !points.empty()) polygon.push_back(order[0]);
+  return polygon;
+}
+
+Vector2d least_rectangle(std::span<const Vector2d> points) {
+  const std::vector<Index> polygon = convex_polygon(points);
+  const std::size_t count = polygon.size();
+  const auto at = [&](std::size_t i) { return points[polygon[i % count]]; };
+  const auto edge = [&](std::size_t i) { return Vector2d(at(i + 1) - at(i)); };
+  double least = std::numeric_limits<double>::infinity();
+  Vector2d best(1, 0);
+  for (std::size_t i = 0, right = 0, top = 0, left = 0; i < count && count > 1; ++i) {
+    const Vector2d along = edge(i).normalized(), across(-along.y(), along.x());
+    // The corners farthest along, across and back only move forward as the edge goes round.
+    right = std::max(right, i + 1);
+    while (edge(right).dot(along) > 0) ++right;
+    top = std::max(top, right);
+    while (edge(top).dot(across) > 0) ++top;
+    left = std::max(left, top);
+    while (edge(left).dot(along) < 0) ++left;
+    const double area = (at(right) - at(left)).dot(along) * (at(top) - at(i)).dot(across);
+    if (area < least) {
+      least = area;
+      best = along;
+    }
+  }
+  return best;
+}
+
+}  // namespace toposcope::geometry

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/expression.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <limits>
+
+#include "model/expression_program.h"
+
+namespace toposcope {
+
+double Expression::evaluate(const ExpressionBoxes& boxes) const {
+  std::array<double, Program::max_stack> stack;
+  std::size_t top = 0;
+  for (const Instruction& step : program_->code) {
+    switch (step.operation) {
+      case Operation::constant:
+        stack[top++] = step.value;
+        continue;
+      case Operation::object_side:
+        stack[top++] = boxes.object.sides[step.side];
+        continue;
+      case Operation::workset_side:
+        stack[top++] = boxes.worksets.sides[step.side];
+        continue;
+      case Operation::negate:
+        stack[top - 1] = -stack[top - 1];
+        continue;
+      default:
+        break;
+    }
+    const double right = stack[--top];
+    stack[top - 1] = apply(step.operation, stack[top - 1], right);
+  }
+  return stack[0];
+}
+
+int Expression::dimension() const {
+  return program_->dimension;
+}
+
+bool Expression::fits(int dimension) const {
+  return program_->literal_zero || program_->dimension == dimension;
+}
+
+bool Expression::uses_object() const {
+  return program_->names(Operation::object_side);
+}
+
+bool Expression::uses_worksets() const {
+  return program_->names(Operation::workset_side);
+}
+
+const std::string& Expression::text() const {
+  return text_;
+}
+
+double apply(Operation operation, double left, double right) {
+  switch (operation) {
+    case Operation::add:
+      return left + right;
+    case Operation::subtract:
+      return left - right;
+    case Operation::multiply:
+      return left * right;
+    case Operation::divide:
+      return left / right;
+    case Operation::minimum:
+      return std::min(left, right);
+    case Operation::maximum:
+      return std::max(left, right);
+    default:
+      assert(false && "not a binary operation");
+      return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+std::string dimension_in_words(int dimension) {
+  switch (dimension) {
+    case 0:
+      return "a number";
+    case 1:
+      return "a length";
+    case 2:
+      return "an area";
+    case 3:
+      return "a volume";
+    default:
+      return "a length to the power " + std::to_string(dimension);
+  }
+}
+
+}  // namespace toposcope

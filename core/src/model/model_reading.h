@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// The steps of read_model, for documents that have passed the schema.
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/error_list.h"
+#include "model/model.h"
+#include "model/yaml_schema.h"
+#include "plugin/catalog.h"
+
+namespace toposcope {
+
+struct ModelReading {
+  const std::string& file;
+  const PluginCatalog* catalog;  ///< may be null
+  ErrorList& errors;
+
+  SourceLocation at(const YAML::Node& node) const { return location_of(node, file); }
+
+  void add(const YAML::Node& node, const std::string& message) const { errors.add(at(node), message); }
+
+  /// Runs `read`; the UsageError that it throws names its place itself.
+  template <class Read>
+  bool attempt(const YAML::Node& node, const Read& read) const {
+    try {
+      read();
+      return true;
+    } catch (const UsageError& error) {
+      errors.add_located(at(node), error.what());
+      return false;
+    }
+  }
+};
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& items) {
+  std::vector<std::string> names;
+  for (const Named& item : items) names.push_back(item.name);
+  return names;
+}
+
+template <class Named>
+std::optional<Index> index_of(const std::vector<Named>& items, const std::string& name) {
+  const auto item = std::find_if(items.begin(), items.end(), [&](const Named& i) { return i.name == name; });
+  if (item == items.end()) return std::nullopt;
+  return static_cast<Index>(item - items.begin());
+}
+
+AbstractModel read_abstract_model(const YAML::Node& root, const ModelReading& reading);
+/// \param abstract  has no objects when the model has no abstract part
+std::vector<ModelFeature> read_features(const YAML::Node& root, const AbstractModel& abstract,
+                                        const ModelReading& reading);
+std::vector<Relationship> read_relationships(const YAML::Node& root, const std::vector<ModelFeature>& features,
+                                             const ModelReading& reading);
+std::vector<ClassRule> read_classes(const YAML::Node& root, const std::vector<Relationship>& relationships,
+                                    const ModelReading& reading);
+
+/// "takes 1", "takes 2 or more", "takes 1 to 3"; \param max  0: no upper bound
+std::string arity_in_words(std::uint32_t min, std::uint32_t max);
+bool arity_allows(std::uint32_t min, std::uint32_t max, std::size_t count);
+
+}  // namespace toposcope

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/model_words.h"
+
+#include <array>
+#include <charconv>
+
+namespace toposcope {
+
+std::string object_kind(int dimension) {
+  static constexpr std::array<const char*, 4> kinds = {"point", "line", "surface", "volume"};
+  return kinds.at(static_cast<std::size_t>(dimension));
+}
+
+std::string shape_in_words(const ShapeSpec& shape) {
+  std::string arguments;
+  for (const auto& [name, value] : shape.arguments) arguments += (arguments.empty() ? "" : ", ") + name + " " + value;
+  return arguments.empty() ? shape.plugin : shape.plugin + " (" + arguments + ")";
+}
+
+std::string range_in_words(const Range& range) {
+  return (range.low ? range.low->text() + " < " : "") + range.measure + (range.high ? " < " + range.high->text() : "");
+}
+
+std::string arguments_in_words(const Relationship& relationship) {
+  std::string words;
+  for (const auto& [name, value] : relationship.arguments)
+    words += (words.empty() ? "" : ", ") + name + " " + value.text();
+  return words;
+}
+
+std::string worksets_in_words(const ModelFeature& feature) {
+  std::string words;
+  for (const std::string& type : feature.worksets) words += (words.empty() ? "" : " + ") + type;
+  return words;
+}
+
+std::string number_in_words(double number) {
+  std::array<char, 32> buffer{};
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr};
+}
+
+}  // namespace toposcope

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "model/model.h"
+
+namespace toposcope {
+
+/// "point", "line", "surface", "volume"
+std::string object_kind(int dimension);
+
+/// "line-group (segments 3)"
+std::string shape_in_words(const ShapeSpec& shape);
+
+/// "bb(w).c/2 < radius < bb(O).a"
+std::string range_in_words(const Range& range);
+
+/// "min 0, max bb(O).c/4"; "" without arguments
+std::string arguments_in_words(const Relationship& relationship);
+
+/// "convex + concave"
+std::string worksets_in_words(const ModelFeature& feature);
+
+/// "0.5", the shortest that reads back the same
+std::string number_in_words(double number);
+
+}  // namespace toposcope

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/yaml_schema.h"
+
+#include <regex>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+
+#include "base/nearest_name.h"
+#include "model/yaml_json.h"
+
+namespace toposcope {
+namespace {
+
+using nlohmann::json;
+
+bool starts_with(const std::string& text, std::string_view start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+/// The last text in single quotes: valijson ends with the name of the property, "... constraints: 'title'."
+std::string last_quoted(const std::string& text) {
+  const std::size_t last = text.rfind('\'');
+  const std::size_t first = last == 0 || last == text.npos ? text.npos : text.rfind('\'', last - 1);
+  return first == text.npos ? text : text.substr(first + 1, last - first - 1);
+}
+
+/// valijson's context is "<root>", then "[key]" or "[index]" each.
+JsonPath path_of(const std::vector<std::string>& context) {
+  JsonPath path;
+  for (std::size_t i = 1; i < context.size(); ++i) path.push_back(context[i].substr(1, context[i].size() - 2));
+  return path;
+}
+
+const json& resolve(const json& schema, const json& part) {
+  const auto reference = part.find("$ref");
+  return reference == part.end() ? part : schema.at(json::json_pointer(reference->get<std::string>().substr(1)));
+}
+
+/// The part of the schema that speaks of the value at `path`.
+const json& schema_at(const json& schema, const JsonPath& path) {
+  static const json nothing = json::object();
+  const json* part = &schema;
+  for (const std::string& step : path) {
+    const json* next = nullptr;
+    if (const auto properties = part->find("properties"); properties != part->end() && properties->contains(step))
+      next = &properties->at(step);
+    else if (const auto others = part->find("additionalProperties"); others != part->end() && others->is_object())
+      next = &*others;
+    else if (const auto items = part->find("items"); items != part->end())
+      next = &*items;
+    if (!next) return nothing;
+    part = &resolve(schema, *next);
+  }
+  return *part;
+}
+
+const json* value_at(const json& root, const JsonPath& path) {
+  const json* value = &root;
+  for (const std::string& step : path) {
+    if (value->is_array()) {
+      value = &value->at(std::stoul(step));
+    } else {
+      const auto member = value->find(step);
+      if (member == value->end()) return nullptr;
+      value = &*member;
+    }
+  }
+  return value;
+}
+
+std::string name_of(const JsonPath& path) {
+  std::string name;
+  for (const std::string& step : path) name += (name.empty() ? "" : ".") + step;
+  return name.empty() ? "the document" : "'" + name + "'";
+}
+
+std::string shown(const json& value) {
+  if (value.is_null()) return "empty";
+  if (value.is_object()) return "a mapping";
+  if (value.is_array()) return value.empty() ? "an empty list" : "a list";
+  return value.is_string() ? "'" + value.get<std::string>() + "'" : value.dump();
+}
+
+std::vector<std::string> keys_of(const json& object) {
+  std::vector<std::string> keys;
+  if (object.is_object())
+    for (const auto& entry : object.items()) keys.push_back(entry.key());
+  return keys;
+}
+
+std::vector<std::string> words_of(const json& list) {
+  std::vector<std::string> words;
+  for (const json& word : list) words.push_back(word.get<std::string>());
+  return words;
+}
+
+/// An object or a list that fails because something within it does, which has been reported itself.
+bool only_passes_on(const std::string& description) {
+  return starts_with(description, "Failed to validate");
+}
+
+/// valijson says which rule broke and where; the words are ours: they name the value and ask for what the schema
+/// describes.
+void report(const valijson::ValidationResults::Error& error, const json& schema, const LocatedJson& document,
+            ErrorList& errors) {
+  const JsonPath path = path_of(error.context);
+  const json& part = schema_at(schema, path);
+  const json* value = value_at(document.value, path);
+  const auto place = document.values.find(path);
+  const SourceLocation where = place == document.values.end() ? document.values.at({}) : place->second;
+  const std::string description = part.value("description", "");
+  const std::string remedy = description.empty() ? "" : "; needed: " + description;
+  const std::string is = name_of(path) + " is " + (value ? shown(*value) : "absent");
+
+  if (starts_with(error.description, "Object contains a property")) {
+    const std::string key = last_quoted(error.description);
+    JsonPath key_path = path;
+    key_path.push_back(key);
+    const auto key_place = document.keys.find(key_path);
+    errors.add(key_place == document.keys.end() ? where : key_place->second,
+               "unknown key '" + key + "' in " + name_of(path) + "; " +
+                   name_remedy(key, keys_of(part.value("properties", json::object()))));
+  } else if (starts_with(error.description, "Missing required property")) {
+    const std::string key = last_quoted(error.description);
+    JsonPath key_path = path;
+    key_path.push_back(key);
+    errors.add(where, name_of(path) + " lacks '" + key +
+                          "'; add it: " + schema_at(schema, key_path).value("description", "a value"));
+  } else if (part.contains("enum") && value && value->is_string()) {
+    errors.add(where, is + "; " + name_remedy(value->get<std::string>(), words_of(part["enum"])));
+  } else if (part.contains("minItems") && value && value->is_array()) {
+    errors.add(where, name_of(path) + " has " + std::to_string(value->size()) + " entries" + remedy);
+  } else {
+    errors.add(where, is + remedy);
+  }
+}
+
+/// The names that a schema's `propertyNames` refuses: valijson passes over them.
+void check_key_names(const json& schema, const JsonPath& path, const LocatedJson& document, ErrorList& errors) {
+  const json& part = schema_at(schema, path);
+  const json* object = value_at(document.value, path);
+  if (!part.contains("propertyNames") || !object || !object->is_object()) return;
+  const json& rule = resolve(schema, part["propertyNames"]);
+  const std::regex pattern(rule.at("pattern").get<std::string>(), std::regex::ECMAScript);
+  for (const auto& entry : object->items()) {
+    if (std::regex_search(entry.key(), pattern)) continue;
+    JsonPath key = path;
+    key.push_back(entry.key());
+    errors.add(document.keys.at(key), "'" + entry.key() + "' is not " + rule.value("description", "a name"));
+  }
+}
+
+}  // namespace
+
+SourceLocation location_of(const YAML::Node& node, const std::string& file) {
+  const YAML::Mark mark = node.Mark();
+  const bool quoted = node.IsScalar() && node.Tag() == "!";
+  return {file, mark.line + 1, mark.column + 1 + (quoted ? 1 : 0)};
+}
+
+YAML::Node parse_yaml(const std::string& text, const std::string& file) {
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() != 1)
+      throw UsageError(file + ":1:1: the file holds " + std::to_string(documents.size()) +
+                       " YAML documents; write exactly one");
+    return documents[0];
+  } catch (const YAML::Exception& error) {
+    throw UsageError(SourceLocation{file, error.mark.line + 1, error.mark.column + 1}.str() +
+                     ": not YAML: " + error.msg + "; check indentation, brackets and quotes");
+  }
+}
+
+void check_schema(const YAML::Node& root, std::string_view schema, const std::string& file, ErrorList& errors) {
+  const LocatedJson document = yaml_to_json(root, file, errors);
+  if (!errors.empty()) return;
+
+  const json schema_json = json::parse(schema);
+  valijson::Schema rules;
+  valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_json), rules);
+  valijson::ValidationResults results;
+  valijson::Validator(valijson::Validator::kStrongTypes)
+      .validate(rules, valijson::adapters::NlohmannJsonAdapter(document.value), &results);
+  for (const auto& error : results)
+    if (!only_passes_on(error.description)) report(error, schema_json, document, errors);
+  for (const auto& [path, where] : document.values) check_key_names(schema_json, path, document, errors);
+}
+
+}  // namespace toposcope

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "pipeline/constructed_features.h"
+
+namespace toposcope {
+
+/// Milliseconds per station, in the order of the path.
+using Timings = std::vector<std::pair<std::string, double>>;
+
+/// A mesh after the filters, and where its faces come from.
+struct PreparedMesh {
+  const Mesh* input = nullptr;
+  std::optional<Mesh> filtered;  ///< absent when no filter changed anything
+  std::vector<Index> origin;     ///< per face of the filtered mesh, the triangle of the input
+  const MeshView& view() const { return filtered ? filtered->view() : input->view(); }
+};
+
+/// The labelling of a model, or of one of its classes.
+struct ClassOutcome {
+  std::string name;                  ///< of the class; of the model when it has no classes
+  std::vector<Index> features;       ///< model feature of each variable
+  std::vector<Index> relationships;  ///< model relationship of each constraint
+  LabelingProblem problem;           ///< interchangeable features told apart by the best labelling
+  LabelingOutcome outcome;
+  bool complete = false;  ///< every feature present, every relationship within tolerance
+};
+
+/// All that is learned of a mesh under a model, station by station.
+struct Analysis {
+  PreparedMesh mesh;
+  WorkingSets sets;
+  ConstructedFeatures features;
+  std::vector<ClassOutcome> classes;          ///< one for a model without classes
+  std::vector<double> class_probabilities;    ///< over `classes` and, last, none of them
+  std::size_t best = 0;                       ///< the class of greatest evidence
+  Timings timings;
+};
+
+/// Runs filter, classify, fit, relate, label.
+Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations, const LabelingRequest& request,
+                 Context& context);
+
+}  // namespace toposcope

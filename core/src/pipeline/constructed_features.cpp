@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/constructed_features.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/errors.h"
+#include "plugin/plugin_host.h"
+#include "toposcope/geometry.h"
+
+namespace toposcope {
+namespace {
+
+constexpr std::size_t max_groups = 1'000'000;
+constexpr std::size_t grain = 8;
+
+/// Features that ask for the same shape of the same types share their fits.
+struct FitJob {
+  const ModelFeature* feature;  ///< the first of them
+  const std::vector<OptionValue>* arguments;
+  const ShapeFitter* fitter;
+  std::vector<Index> features;
+};
+
+bool same_arguments(const std::vector<OptionValue>& a, const std::vector<OptionValue>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const OptionValue& x, const OptionValue& y) {
+    return x.name == y.name && x.number == y.number && x.text == y.text;
+  });
+}
+
+std::vector<FitJob> fit_jobs(const Model& model, const Stations& stations) {
+  std::vector<FitJob> jobs;
+  for (Index f = 0; f < model.features.size(); ++f) {
+    const ModelFeature& feature = model.features[f];
+    const auto same = std::find_if(jobs.begin(), jobs.end(), [&](const FitJob& job) {
+      return job.feature->shape.plugin == feature.shape.plugin && job.feature->worksets == feature.worksets &&
+             same_arguments(*job.arguments, stations.shape_arguments[f]);
+    });
+    if (same != jobs.end())
+      same->features.push_back(f);
+    else
+      jobs.push_back({&feature, &stations.shape_arguments[f], stations.shapes.at(feature.shape.plugin).get(), {f}});
+  }
+  return jobs;
+}
+
+/// All groups of pairwise disjoint working sets, one of each type; for equal types in ascending order, so that each
+/// group comes once.
+class GroupEnumerator {
+ public:
+  GroupEnumerator(const ModelFeature& feature, const WorkingSets& sets, const BitMatrix& overlap)
+      : feature_(feature), overlap_(overlap) {
+    for (const std::string& type : feature.worksets) {
+      std::vector<Index>& candidates = of_type_.emplace_back();
+      for (Index s = 0; s < sets.size(); ++s)
+        if (sets.type_names[sets.types[s]] == type) candidates.push_back(s);
+    }
+    extend();
+  }
+  std::size_t arity() const { return of_type_.size(); }
+  std::size_t size() const { return groups_.size() / of_type_.size(); }
+  std::span<const Index> operator[](std::size_t group) const {
+    return std::span(groups_).subspan(group * of_type_.size(), of_type_.size());
+  }
+
+ private:
+  void extend() {
+    const std::size_t position = group_.size();
+    if (position == of_type_.size()) {
+      groups_.insert(groups_.end(), group_.begin(), group_.end());
+      if (size() > max_groups)
+        throw UsageError(feature_.where.str() + ": feature '" + feature_.name + "' has over " +
+                         std::to_string(max_groups) +
+                         " groups of working sets on this mesh; name fewer working-set types, or let the classifier "
+                         "give fewer sets");
+      return;
+    }
+    for (Index s : of_type_[position]) {
+      bool fits = true;
+      for (std::size_t i = 0; i < position && fits; ++i)
+        fits = !overlap_.get(group_[i], s) &&
+               (feature_.worksets[i] != feature_.worksets[position] || group_[i] < s);
+      if (!fits) continue;
+      group_.push_back(s);
+      extend();
+      group_.pop_back();
+    }
+  }
+  const ModelFeature& feature_;
+  const BitMatrix& overlap_;
+  std::vector<std::vector<Index>> of_type_;
+  std::vector<Index> group_;
+  std::vector<Index> groups_;  ///< one after the other
+};
+
+struct Bounds {
+  double low, high;
+};
+Bounds evaluate(const Range& range, const ExpressionBoxes& boxes) {
+  const Interval all;
+  return {range.low ? range.low->evaluate(boxes) : all.low, range.high ? range.high->evaluate(boxes) : all.high};
+}
+
+bool uses_working_set_box(const ModelFeature& feature) {
+  const auto uses = [](const std::optional<Expression>& e) { return e && e->uses_worksets(); };
+  return uses(feature.max_fit_error) || std::any_of(feature.ranges.begin(), feature.ranges.end(), [&](const Range& r) {
+           return uses(r.low) || uses(r.high);
+         });
+}
+
+/// The box along the principal axes: a stand-in for bb(w) of many groups, of which few are kept.
+Box principal_box(std::span<const Vec3> points) {
+  const PrincipalAxes principal = principal_axes(points);
+  Box box{principal.centroid, principal.axes, {}};
+  for (int k = 0; k < 3; ++k) {
+    const auto [low, high] = std::minmax_element(points.begin(), points.end(), [&](const Vec3& p, const Vec3& q) {
+      return p.dot(box.axes[k]) < q.dot(box.axes[k]);
+    });
+    box.sides[k] = (*high - *low).dot(box.axes[k]);
+    box.center += ((*high + *low) / 2 - principal.centroid).dot(box.axes[k]) * box.axes[k];
+  }
+  return box;
+}
+
+enum class Fate : std::uint8_t { boxed_out, unusable, out_of_range, poor_fit, fitted };
+
+/// What becomes of a group for one feature, before (`shape` null) or after the fit.
+Fate fate_of(const ModelFeature& feature, const ShapeFitter& fitter, const ExpressionBoxes& boxes,
+             const FittedShape* shape) {
+  if (shape && !shape->summary.usable()) return Fate::unusable;
+  for (const Range& range : feature.ranges) {
+    const Bounds bounds = evaluate(range, boxes);
+    if (!shape) {
+      const Interval possible = fitter.bounds(range.measure, boxes.worksets);
+      if (possible.high <= bounds.low || possible.low >= bounds.high) return Fate::boxed_out;
+      continue;
+    }
+    const auto measure = std::find_if(shape->measures.begin(), shape->measures.end(),
+                                      [&](const Measure& m) { return m.name == range.measure; });
+    if (measure == shape->measures.end() || !(measure->value > bounds.low && measure->value < bounds.high))
+      return Fate::out_of_range;
+  }
+  if (shape && feature.max_fit_error && shape->rms > feature.max_fit_error->evaluate(boxes)) return Fate::poor_fit;
+  return Fate::fitted;
+}
+
+/// The fits of one job, with their fates for each of its features; one entry per group.
+struct JobResult {
+  std::vector<FittedShape> shapes;
+  std::vector<Box> boxes;
+  std::vector<std::vector<Fate>> fates;  ///< per feature of the job, per group
+};
+
+/// The points of a group of working sets, one set after the other.
+void gather(const MeshView& mesh, const WorkingSets& sets, std::span<const Index> group, std::vector<Vec3>& points,
+            std::vector<Index>& offsets) {
+  points.clear();
+  offsets.assign(1, 0);
+  for (Index s : group) {
+    for (Index v : sets[s]) points.push_back(mesh.positions[v]);
+    offsets.push_back(static_cast<Index>(points.size()));
+  }
+}
+
+JobResult run_job(const FitJob& job, const GroupEnumerator& groups, const MeshView& mesh, const Model& model,
+                  const WorkingSets& sets, std::span<const Box> set_boxes, Context& context) {
+  JobResult result;
+  result.shapes.resize(groups.size());
+  result.boxes.resize(groups.size());
+  result.fates.assign(job.features.size(), std::vector<Fate>(groups.size(), Fate::boxed_out));
+  const bool exact_box = groups.arity() == 1 || std::any_of(job.features.begin(), job.features.end(), [&](Index f) {
+                           return uses_working_set_box(model.features[f]);
+                         });
+  context.parallel_for(groups.size(), grain, [&](std::size_t first, std::size_t last) {
+    std::vector<Vec3> points;
+    std::vector<Index> offsets;
+    for (std::size_t g = first; g < last && !context.cancelled(); ++g) {
+      const std::span<const Index> group = groups[g];
+      gather(mesh, sets, group, points, offsets);
+      result.boxes[g] = group.size() == 1 ? set_boxes[group[0]]
+                        : exact_box       ? oriented_box(points)
+                                          : principal_box(points);
+      const ExpressionBoxes boxes{mesh.box, result.boxes[g]};
+      bool wanted = false;
+      for (std::size_t i = 0; i < job.features.size(); ++i) {
+        result.fates[i][g] =
+            exact_box ? fate_of(model.features[job.features[i]], *job.fitter, boxes, nullptr) : Fate::fitted;
+        wanted = wanted || result.fates[i][g] == Fate::fitted;
+      }
+      if (!wanted) continue;
+      const FitInput input{points, offsets, result.boxes[g], mesh.box, mesh.mean_edge};
+      result.shapes[g] = job.fitter->fit(input, Options(*job.arguments), context);
+      for (std::size_t i = 0; i < job.features.size(); ++i)
+        if (Fate& fate = result.fates[i][g]; fate == Fate::fitted)
+          fate = fate_of(model.features[job.features[i]], *job.fitter, boxes, &result.shapes[g]);
+    }
+  });
+  return result;
+}
+
+void count(CandidateCount& count, std::span<const Fate> fates) {
+  count.groups = fates.size();
+  for (Fate fate : fates) switch (fate) {
+      case Fate::boxed_out: ++count.boxed_out; break;
+      case Fate::unusable: ++count.unusable; break;
+      case Fate::out_of_range: ++count.out_of_range; break;
+      case Fate::poor_fit: ++count.poor_fit; break;
+      case Fate::fitted: ++count.kept; break;
+    }
+}
+
+/// Half of the greatest error that the model allows is a typical one; where it says nothing, the pipeline does.
+double fit_error_sd(const ModelFeature& feature, const MeshView& mesh, const Box& worksets, const Stations& stations) {
+  if (feature.max_fit_error) return feature.max_fit_error->evaluate({mesh.box, worksets}) / 2;
+  return stations.probability.fit_error_scale * mesh.mean_edge;
+}
+
+/// Moves the best candidates of each feature of a job to `out`.
+void select(const FitJob& job, const GroupEnumerator& groups, const JobResult& result, const MeshView& mesh,
+            const Model& model, const WorkingSets& sets, const Stations& stations, ConstructedFeatures& out) {
+  constexpr Index unmade = std::numeric_limits<Index>::max();
+  std::vector<Index> made(groups.size(), unmade);  // into out.all
+  std::vector<std::pair<double, Index>> ranked;
+  std::vector<Index> offsets;
+  for (std::size_t i = 0; i < job.features.size(); ++i) {
+    const ModelFeature& feature = model.features[job.features[i]];
+    FeatureCandidates& candidates = out.of_feature[job.features[i]];
+    count(candidates.count, result.fates[i]);
+    ranked.clear();
+    for (Index g = 0; g < groups.size(); ++g)
+      if (result.fates[i][g] == Fate::fitted)
+        ranked.emplace_back(-fit_evidence(stations.probability, result.shapes[g],
+                                          fit_error_sd(feature, mesh, result.boxes[g], stations)),
+                            g);
+    std::sort(ranked.begin(), ranked.end());
+    if (ranked.size() > stations.probability.max_candidates) {
+      candidates.count.beaten = ranked.size() - stations.probability.max_candidates;
+      candidates.count.kept = stations.probability.max_candidates;
+      ranked.resize(stations.probability.max_candidates);
+    }
+    for (const auto& [cost, g] : ranked) {
+      if (made[g] == unmade) {
+        made[g] = static_cast<Index>(out.all.size());
+        ConstructedFeature& constructed = out.all.emplace_back();
+        constructed.sets.assign(groups[g].begin(), groups[g].end());
+        constructed.shape = result.shapes[g];
+        gather(mesh, sets, groups[g], constructed.points, offsets);
+        constructed.box = groups.arity() == 1 ? result.boxes[g] : oriented_box(constructed.points);
+      }
+      candidates.constructed.push_back(made[g]);
+      candidates.evidence.push_back(-cost);
+    }
+  }
+}
+
+}  // namespace
+
+ConstructedFeatures construct_features(const MeshView& mesh, const Model& model, const WorkingSets& sets,
+                                       const BitMatrix& overlap, const Stations& stations, Context& context) {
+  std::vector<Box> boxes(sets.size());
+  context.parallel_for(sets.size(), grain, [&](std::size_t first, std::size_t last) {
+    std::vector<Vec3> points;
+    for (std::size_t s = first; s < last; ++s) {
+      points.clear();
+      for (Index v : sets[s]) points.push_back(mesh.positions[v]);
+      boxes[s] = oriented_box(points);
+    }
+  });
+
+  ConstructedFeatures features;
+  features.of_feature.resize(model.features.size());
+  const std::vector<FitJob> jobs = fit_jobs(model, stations);
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    const GroupEnumerator groups(*jobs[j].feature, sets, overlap);
+    const JobResult result = guard(jobs[j].feature->shape.plugin,
+                             [&] { return run_job(jobs[j], groups, mesh, model, sets, boxes, context); });
+    select(jobs[j], groups, result, mesh, model, sets, stations, features);
+    context.progress(static_cast<double>(j + 1) / static_cast<double>(jobs.size()));
+  }
+  return features;
+}
+
+}  // namespace toposcope

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/labeling_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/errors.h"
+#include "plugin/plugin_host.h"
+
+namespace toposcope {
+namespace {
+
+constexpr std::size_t max_table = 16'000'000;
+constexpr std::size_t grain = 16;
+
+std::vector<OptionValue> relation_arguments(const MeshView& mesh, const Relationship& relationship,
+                                            const std::vector<OptionValue>& defaults) {
+  std::vector<OptionValue> values = defaults;
+  for (const auto& [name, expression] : relationship.arguments) {
+    auto value = std::find_if(values.begin(), values.end(), [&](const OptionValue& v) { return v.name == name; });
+    if (value == values.end()) value = values.insert(value, {name, 0, ""});
+    value->number = expression.evaluate({mesh.box, Box{}});
+  }
+  return values;
+}
+
+RelationResult test(const MeshView& mesh, const RelationTester& tester, const std::vector<OptionValue>& arguments,
+                    std::span<const ConstructedFeature* const> features, std::vector<RelationOperand>& operands,
+                    Context& context) {
+  operands.clear();
+  for (const ConstructedFeature* feature : features)
+    operands.push_back({&feature->shape, feature->points, feature->box});
+  return tester.test({operands, mesh.box, mesh.mean_edge}, Options(arguments), context);
+}
+
+LabelingConstraint empty_constraint(const Relationship& relationship, const LabelingProblem& problem) {
+  LabelingConstraint constraint;
+  constraint.name = relationship.name;
+  constraint.scope = relationship.features;
+  std::size_t size = 1;
+  for (Index v : constraint.scope) {
+    size *= problem.variables[v].domain();
+    if (size > max_table)
+      throw UsageError(relationship.where.str() + ": relationship '" + relationship.name +
+                       "' would need a table of over " + std::to_string(max_table) +
+                       " entries; lower probability.max_candidates");
+  }
+  constraint.costs.assign(size, 0);
+  constraint.violations.assign(size, 0);
+  return constraint;
+}
+
+/// Fills a relationship's tables: one row of work per combination of all but the last variable.
+void fill_constraint(LabelingConstraint& constraint, const MeshView& mesh, const Relationship& relationship,
+                     const LabelingProblem& problem, const ConstructedFeatures& features,
+                     const std::vector<OptionValue>& defaults, const Stations& stations, Context& context) {
+  const std::size_t arity = constraint.scope.size();
+  std::vector<std::size_t> domain;
+  for (Index v : constraint.scope) domain.push_back(problem.variables[v].domain());
+  const RelationTester& tester = *stations.relations.at(relationship.plugin);
+  const std::vector<OptionValue> arguments = relation_arguments(mesh, relationship, defaults);
+  const std::size_t row = domain.back();
+  context.parallel_for(constraint.costs.size() / row, grain, [&](std::size_t first, std::size_t last) {
+    std::vector<Index> ids(arity);
+    std::vector<const ConstructedFeature*> given(arity);
+    std::vector<RelationOperand> operands;
+    for (std::size_t entry = first * row; entry < last * row && !context.cancelled(); ++entry) {
+      std::size_t rest = entry;
+      bool missing = false;
+      for (std::size_t i = arity; i-- > 0;) {
+        const std::size_t value = rest % domain[i];
+        rest /= domain[i];
+        missing = missing || value == 0;
+        if (value > 0) ids[i] = problem.variables[constraint.scope[i]].candidates[value - 1];
+      }
+      if (missing) continue;
+      bool conflict = false;  // never both labelled: not worth a test
+      for (std::size_t i = 0; i < arity; ++i) {
+        for (std::size_t j = 0; j < i; ++j) conflict = conflict || problem.conflict(ids[i], ids[j]);
+        given[i] = &features.all[ids[i]];
+      }
+      if (conflict) {
+        constraint.violations[entry] = std::numeric_limits<float>::infinity();
+        continue;
+      }
+      const RelationResult result = test(mesh, tester, arguments, given, operands, context);
+      constraint.costs[entry] = static_cast<float>(-relation_evidence(stations.probability, result));
+      constraint.violations[entry] = static_cast<float>(violation(result));
+    }
+  });
+}
+
+}  // namespace
+
+RelationResult test_relationship(const MeshView& mesh, const Model& model, Index relationship,
+                                 std::span<const ConstructedFeature* const> features, const Stations& stations,
+                                 Context& context) {
+  const Relationship& of_model = model.relationships[relationship];
+  std::vector<RelationOperand> operands;
+  return guard(of_model.plugin, [&] {
+    return test(mesh, *stations.relations.at(of_model.plugin),
+                relation_arguments(mesh, of_model, stations.relation_defaults[relationship]), features, operands,
+                context);
+  });
+}
+
+LabelingProblem build_problem(const MeshView& mesh, const Model& model, const ConstructedFeatures& features,
+                              const BitMatrix& overlap, const Stations& stations, Context& context) {
+  LabelingProblem problem;
+  problem.name = model.name;
+  for (Index f = 0; f < model.features.size(); ++f) {
+    const FeatureCandidates& candidates = features.of_feature[f];
+    LabelingVariable& variable = problem.variables.emplace_back();
+    variable.name = model.features[f].name;
+    variable.detectability = model.features[f].detectability;
+    variable.candidates = candidates.constructed;
+    const DetectabilityCosts costs = detectability_costs(stations.probability, variable.detectability);
+    variable.costs.push_back(costs.missing);
+    // A feature that is there is any one of the candidates: the prior is shared among them.
+    const double share = std::log(std::max<double>(1, static_cast<double>(candidates.count.kept + candidates.count.beaten)));
+    for (double evidence : candidates.evidence) variable.costs.push_back(costs.present + share - evidence);
+  }
+
+  const Index count = static_cast<Index>(features.all.size());
+  BitMatrix conflicts(count);
+  for (Index a = 0; a < count; ++a)
+    for (Index b = 0; b < count; ++b)
+      for (Index s : features.all[a].sets)
+        for (Index t : features.all[b].sets)
+          if (overlap.get(s, t)) conflicts.set(a, b);
+  problem.candidate_count = count;
+  problem.conflict_bits = std::move(conflicts.bits);
+
+  for (Index r = 0; r < model.relationships.size(); ++r) {
+    const Relationship& relationship = model.relationships[r];
+    LabelingConstraint& constraint = problem.constraints.emplace_back(empty_constraint(relationship, problem));
+    guard(relationship.plugin, [&] {
+      fill_constraint(constraint, mesh, relationship, problem, features, stations.relation_defaults[r], stations,
+                      context);
+    });
+    context.progress(static_cast<double>(r + 1) / static_cast<double>(model.relationships.size()));
+  }
+  return problem;
+}
+
+std::vector<ClassOutcome> pose_classes(const LabelingProblem& problem, const Model& model,
+                                       const ProbabilityModel& probability) {
+  std::vector<ClassOutcome> posed;
+  if (model.classes.empty()) {
+    ClassOutcome& whole = posed.emplace_back();
+    whole.name = model.name;
+    whole.problem = problem;
+    whole.features.resize(problem.variables.size());
+    whole.relationships.resize(problem.constraints.size());
+    std::iota(whole.features.begin(), whole.features.end(), 0);
+    std::iota(whole.relationships.begin(), whole.relationships.end(), 0);
+    return posed;
+  }
+  for (const ClassRule& rule : model.classes) {
+    ClassOutcome& part = posed.emplace_back();
+    part.name = part.problem.name = rule.name;
+    part.relationships = rule.relationships;
+    part.problem.candidate_count = problem.candidate_count;
+    part.problem.conflict_bits = problem.conflict_bits;
+    for (Index v = 0; v < problem.variables.size(); ++v) {
+      const bool named = std::any_of(rule.relationships.begin(), rule.relationships.end(), [&](Index r) {
+        const auto& scope = problem.constraints[r].scope;
+        return std::find(scope.begin(), scope.end(), v) != scope.end();
+      });
+      if (!named) continue;
+      part.features.push_back(v);
+      LabelingVariable& variable = part.problem.variables.emplace_back(problem.variables[v]);
+      const DetectabilityCosts general = detectability_costs(probability, variable.detectability);
+      const DetectabilityCosts here = detectability_costs(probability, 1);
+      variable.detectability = 1;
+      variable.costs[0] = here.missing;
+      for (std::size_t k = 1; k < variable.costs.size(); ++k) variable.costs[k] += here.present - general.present;
+    }
+    for (Index r : rule.relationships) {
+      LabelingConstraint& constraint = part.problem.constraints.emplace_back(problem.constraints[r]);
+      for (Index& v : constraint.scope)
+        v = static_cast<Index>(std::find(part.features.begin(), part.features.end(), v) - part.features.begin());
+    }
+  }
+  return posed;
+}
+
+LabelingProblem restricted(const LabelingProblem& problem, const std::vector<std::vector<Index>>& kept) {
+  LabelingProblem result;
+  result.name = problem.name;
+  result.candidate_count = problem.candidate_count;
+  result.conflict_bits = problem.conflict_bits;
+  for (Index v = 0; v < problem.variables.size(); ++v) {
+    const LabelingVariable& from = problem.variables[v];
+    LabelingVariable& to = result.variables.emplace_back();
+    to.name = from.name;
+    to.detectability = from.detectability;
+    for (Index value : kept[v]) {
+      to.costs.push_back(from.costs[value]);
+      if (value > 0) to.candidates.push_back(from.candidates[value - 1]);
+    }
+  }
+  for (const LabelingConstraint& from : problem.constraints) {
+    LabelingConstraint& to = result.constraints.emplace_back();
+    to.name = from.name;
+    to.scope = from.scope;
+    std::size_t size = 1;
+    for (Index v : from.scope) size *= kept[v].size();
+    to.costs.resize(size);
+    to.violations.resize(size);
+    for (std::size_t entry = 0; entry < size; ++entry) {
+      std::size_t rest = entry, source = 0, stride = 1;
+      for (std::size_t i = from.scope.size(); i-- > 0;) {
+        const auto& values = kept[from.scope[i]];
+        source += values[rest % values.size()] * stride;
+        rest /= values.size();
+        stride *= problem.variables[from.scope[i]].domain();
+      }
+      to.costs[entry] = from.costs[source];
+      to.violations[entry] = from.violations[source];
+    }
+  }
+  return result;
+}
+
+std::size_t table_entry(const LabelingProblem& problem, const LabelingConstraint& constraint,
+                        const Labeling& labeling) {
+  std::size_t entry = 0;
+  for (Index v : constraint.scope) entry = entry * problem.variables[v].domain() + labeling.values[v];
+  return entry;
+}
+
+void check_outcome(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& plugin) {
+  if (outcome.labelings.empty()) throw PluginError(plugin, "gave no labelling, not even that all is missing");
+  for (const Labeling& labeling : outcome.labelings) {
+    if (labeling.values.size() != problem.variables.size())
+      throw PluginError(plugin, "gave a labelling of " + std::to_string(labeling.values.size()) + " values for " +
+                                    std::to_string(problem.variables.size()) + " variables");
+    std::vector<Index> used;
+    for (Index v = 0; v < labeling.values.size(); ++v) {
+      const LabelingVariable& variable = problem.variables[v];
+      if (labeling.values[v] >= variable.domain())
+        throw PluginError(plugin, "gave '" + variable.name + "' value " + std::to_string(labeling.values[v]) + " of " +
+                                      std::to_string(variable.domain()));
+      if (labeling.values[v] == 0) continue;
+      const Index candidate = variable.candidates[labeling.values[v] - 1];
+      for (Index other : used)
+        if (problem.conflict(candidate, other))
+          throw PluginError(plugin, "labelled two features with candidates that share a vertex");
+      used.push_back(candidate);
+    }
+  }
+  if (outcome.posteriors.empty()) return;
+  bool sized = outcome.posteriors.size() == problem.variables.size();
+  for (Index v = 0; sized && v < problem.variables.size(); ++v)
+    sized = outcome.posteriors[v].size() == problem.variables[v].domain();
+  if (!sized) throw PluginError(plugin, "gave posteriors that do not match the variables' domains");
+}
+
+}  // namespace toposcope

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/labeling_problem.h"
+#include "result/result.h"
+
+namespace toposcope {
+namespace {
+
+/// Reads one labelling of the best class.
+class Explainer {
+ public:
+  Explainer(const Analysis& analysis, const Model& model, const Stations& stations, Context& context)
+      : analysis_(analysis),
+        model_(model),
+        stations_(stations),
+        context_(context),
+        posed_(analysis.classes[analysis.best]),
+        best_(posed_.outcome.labelings.front()) {}
+
+  RelationReport relation(Index constraint, const Labeling& labeling) const {
+    const Index r = posed_.relationships[constraint];
+    const Relationship& relationship = model_.relationships[r];
+    RelationReport report;
+    report.name = relationship.name;
+    report.type = relationship.plugin;
+    report.unit = stations_.relation_units[r];
+    std::vector<const ConstructedFeature*> given;
+    for (Index v : posed_.problem.constraints[constraint].scope) {
+      report.features.push_back(posed_.problem.variables[v].name);
+      if (labeling.values[v] == 0)
+        report.why = "'" + report.features.back() + "' is missing";
+      else
+        given.push_back(&constructed(v, labeling.values[v]));
+    }
+    if (!report.why.empty()) return report;
+    const RelationResult result =
+        test_relationship(analysis_.mesh.view(), model_, r, given, stations_, context_);
+    const double scale = report.unit == "deg" ? 180 / pi : 1;
+    report.tested = true;
+    report.applicable = result.applicable;
+    report.why = result.why;
+    report.residual = result.residual * scale;
+    report.tolerance = result.tolerance * scale;
+    report.satisfied = violation(result) <= 1;
+    report.probability = relation_probability(stations_.probability, result);
+    return report;
+  }
+
+  FeatureReport feature(Index model_feature) const {
+    FeatureReport report;
+    report.name = model_.features[model_feature].name;
+    report.shape_plugin = model_.features[model_feature].shape.plugin;
+    const auto found = std::find(posed_.features.begin(), posed_.features.end(), model_feature);
+    if (found == posed_.features.end()) {
+      report.probability = 1;
+      report.missing.reason = "class '" + posed_.name + "' has no such feature";
+      return report;
+    }
+    const Index v = static_cast<Index>(found - posed_.features.begin());
+    const Index value = best_.values[v];
+    report.present = value > 0;
+    report.probability = probability(v, value);
+    if (report.present) {
+      const ConstructedFeature& made = constructed(v, value);
+      report.shape = made.shape;
+      report.working_sets = made.sets;
+      report.triangles = triangles_of(made);
+      for (Index t : report.triangles) report.faces.push_back(analysis_.mesh.input->face_origin()[t]);
+      std::sort(report.faces.begin(), report.faces.end());
+      report.faces.erase(std::unique(report.faces.begin(), report.faces.end()), report.faces.end());
+    } else {
+      report.missing = why_missing(model_feature, v);
+    }
+    return report;
+  }
+
+ private:
+  const ConstructedFeature& constructed(Index variable, Index value) const {
+    return analysis_.features.all[posed_.problem.variables[variable].candidates[value - 1]];
+  }
+
+  /// Posterior of the value, with that of the values whose shape is the same to within a mean edge: nested working
+  /// sets give many such.
+  double probability(Index v, Index value) const {
+    const auto& posteriors = posed_.outcome.posteriors;
+    if (posteriors.empty()) return std::numeric_limits<double>::quiet_NaN();
+    if (value == 0) return posteriors[v][0];
+    double sum = 0;
+    for (Index other = 1; other < posed_.problem.variables[v].domain(); ++other)
+      if (other == value || same_shape(v, value, other)) sum += posteriors[v][other];
+    return std::min(1.0, sum);
+  }
+
+  bool same_shape(Index v, Index a, Index b) const {
+    const ShapeFitter& fitter = *stations_.shapes.at(model_.features[posed_.features[v]].shape.plugin);
+    const auto mean_distance = [&](const FittedShape& from, const FittedShape& to) {
+      double sum = 0;
+      for (const Vec3& p : from.outline) sum += fitter.distance(to, p);
+      return sum / static_cast<double>(std::max<std::size_t>(1, from.outline.size()));
+    };
+    const FittedShape& first = constructed(v, a).shape;
+    const FittedShape& second = constructed(v, b).shape;
+    const double limit = analysis_.mesh.view().mean_edge;
+    return mean_distance(first, second) <= limit && mean_distance(second, first) <= limit;
+  }
+
+  /// Triangles of the input of which at least half (of the filtered pieces) have two vertices in the working sets.
+  std::vector<Index> triangles_of(const ConstructedFeature& made) const {
+    const MeshView& view = analysis_.mesh.view();
+    std::vector<bool> inside(view.vertex_count(), false);
+    for (Index s : made.sets)
+      for (Index v : analysis_.sets[s]) inside[v] = true;
+    std::vector<std::int32_t> balance(analysis_.mesh.input->view().face_count(), 0);
+    std::vector<bool> touched(balance.size(), false);
+    for (Index f = 0; f < view.face_count(); ++f) {
+      const auto& [a, b, c] = view.triangles[f];
+      const bool in = inside[a] + inside[b] + inside[c] >= 2;
+      balance[analysis_.mesh.origin[f]] += in ? 1 : -1;
+      if (in) touched[analysis_.mesh.origin[f]] = true;
+    }
+    std::vector<Index> triangles;
+    for (Index t = 0; t < balance.size(); ++t)
+      if (touched[t] && balance[t] >= 0) triangles.push_back(t);
+    return triangles;
+  }
+
+  MissingReport why_missing(Index model_feature, Index v) const {
+    MissingReport report;
+    const LabelingVariable& variable = posed_.problem.variables[v];
+    if (variable.candidates.empty()) {
+      report.reason = no_candidate(model_.features[model_feature],
+                                   analysis_.features.of_feature[model_feature].count);
+      return report;
+    }
+    Labeling trial = best_;
+    Index nearest = 0, in_conflict = 0;
+    report.nearest_cost = std::numeric_limits<double>::infinity();
+    for (Index value = 1; value < variable.domain(); ++value) {
+      trial.values[v] = value;
+      if (conflicts(trial, v)) {
+        ++in_conflict;
+        continue;
+      }
+      double cost = variable.costs[value] - variable.costs[0];
+      for (const LabelingConstraint& constraint : posed_.problem.constraints)
+        if (std::find(constraint.scope.begin(), constraint.scope.end(), v) != constraint.scope.end())
+          cost += static_cast<double>(constraint.costs[table_entry(posed_.problem, constraint, trial)]);
+      if (cost < report.nearest_cost) {
+        report.nearest_cost = cost;
+        nearest = value;
+      }
+    }
+    if (nearest == 0) {
+      report.reason = "all " + std::to_string(in_conflict) + " candidates share vertices with other labelled features";
+      report.nearest_cost = 0;
+      return report;
+    }
+    trial.values[v] = nearest;
+    report.nearest = constructed(v, nearest).shape;
+    for (Index c = 0; c < posed_.problem.constraints.size(); ++c) {
+      const auto& scope = posed_.problem.constraints[c].scope;
+      if (std::find(scope.begin(), scope.end(), v) == scope.end()) continue;
+      RelationReport relation_report = relation(c, trial);
+      if (relation_report.tested && !relation_report.satisfied) report.failed.push_back(std::move(relation_report));
+    }
+    report.reason = report.failed.empty()
+                        ? "the nearest candidate does not stand out from the rest of the mesh"
+                        : "the nearest candidate breaks " + std::to_string(report.failed.size()) + " relationship(s)";
+    return report;
+  }
+
+  bool conflicts(const Labeling& labeling, Index v) const {
+    const Index id = posed_.problem.variables[v].candidates[labeling.values[v] - 1];
+    for (Index w = 0; w < labeling.values.size(); ++w)
+      if (w != v && labeling.values[w] > 0 &&
+          posed_.problem.conflict(id, posed_.problem.variables[w].candidates[labeling.values[w] - 1]))
+        return true;
+    return false;
+  }
+
+  static std::string no_candidate(const ModelFeature& feature, const CandidateCount& count) {
+    std::string types;
+    for (const std::string& type : feature.worksets) types += (types.empty() ? "" : " + ") + type;
+    if (count.groups == 0) return "no working set of type " + types;
+    std::string reason = "none of " + std::to_string(count.groups) + " groups of working sets of type " + types +
+                         " became a candidate:";
+    const auto part = [&](std::size_t n, const char* what) {
+      if (n > 0) reason += " " + std::to_string(n) + " " + what + ";";
+    };
+    part(count.boxed_out, "too large or too small for the model's ranges");
+    part(count.unusable, ("without a usable " + feature.shape.plugin).c_str());
+    part(count.out_of_range, "with a parameter outside the model's ranges");
+    part(count.poor_fit, "with a fit error beyond max_fit_error");
+    if (reason.back() == ';') reason.pop_back();
+    return reason;
+  }
+
+  const Analysis& analysis_;
+  const Model& model_;
+  const Stations& stations_;
+  Context& context_;
+  const ClassOutcome& posed_;
+  const Labeling& best_;
+};
+
+}  // namespace
+
+Result explain(const Analysis& analysis, const Model& model, const std::string& mesh_path, const Stations& stations,
+               Context& context) {
+  const ClassOutcome& posed = analysis.classes[analysis.best];
+  const LabelingOutcome& outcome = posed.outcome;
+  const Explainer explainer(analysis, model, stations, context);
+  const MeshView& input = analysis.mesh.input->view();
+
+  Result result;
+  result.mesh_path = mesh_path;
+  result.vertices = input.vertex_count();
+  result.faces = analysis.mesh.input->input_faces();
+  result.box = input.box;
+  result.mean_edge = input.mean_edge;
+  result.model = model.name;
+  result.log_evidence = outcome.log_evidence;
+  result.guarantee = outcome.guarantee;
+  result.optimal = outcome.optimal;
+  result.working_sets = analysis.sets.size();
+  result.timings = analysis.timings;
+  result.plugins = stations.uses;
+  for (std::size_t c = 0; c < analysis.classes.size(); ++c) {
+    const ClassOutcome& each = analysis.classes[c];
+    result.classes.push_back({each.name, each.outcome.log_evidence, analysis.class_probabilities[c],
+                              model.classes.empty() || each.complete});
+  }
+  if (!model.classes.empty() && posed.complete) result.class_name = posed.name;
+  for (Index f = 0; f < model.features.size(); ++f) {
+    result.features.push_back(explainer.feature(f));
+    result.candidates.emplace_back(model.features[f].name, analysis.features.of_feature[f].count);
+  }
+  const Labeling& best = outcome.labelings.front();
+  for (Index c = 0; c < posed.problem.constraints.size(); ++c)
+    result.relations.push_back(explainer.relation(c, best));
+  const auto present = std::count_if(best.values.begin(), best.values.end(), [](Index value) { return value > 0; });
+  result.status = present == 0 ? "none" : present == std::ssize(best.values) ? "labelled" : "partial";
+  for (std::size_t k = 1; k < outcome.labelings.size(); ++k) {
+    AlternativeReport& alternative = result.alternatives.emplace_back();
+    alternative.cost = outcome.labelings[k].cost;
+    alternative.probability = std::exp(-outcome.labelings[k].cost - outcome.log_evidence);
+    for (Index v = 0; v < best.values.size(); ++v)
+      alternative.candidates.emplace_back(posed.problem.variables[v].name,
+                                          static_cast<int>(outcome.labelings[k].values[v]));
+  }
+  return result;
+}
+
+}  // namespace toposcope

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/analysis.h"
+
+namespace toposcope {
+
+/// A relationship under a labelling.
+struct RelationReport {
+  std::string name, type;
+  std::vector<std::string> features;
+  bool tested = false;      ///< false: a feature in its scope is missing
+  bool applicable = true;
+  std::string why;          ///< why it is not tested or not applicable
+  double residual = 0, tolerance = 0;  ///< in `unit`
+  std::string unit;         ///< "deg" or "length"
+  bool satisfied = false;
+  double probability = 0;   ///< that it holds, given its residual
+};
+
+/// Why a feature is missing.
+struct MissingReport {
+  std::string reason;
+  std::optional<FittedShape> nearest;  ///< the candidate that would have cost least
+  double nearest_cost = 0;             ///< nats that labelling it would have added over leaving it missing
+  std::vector<RelationReport> failed;  ///< relationships that the nearest candidate breaks
+};
+
+struct FeatureReport {
+  std::string name, shape_plugin;
+  bool present = false;
+  double probability = 0;  ///< present: that this shape (to within a mean edge) is the feature; missing: that it is missing
+  FittedShape shape;
+  std::vector<Index> working_sets;
+  std::vector<Index> triangles;  ///< of the input mesh
+  std::vector<Index> faces;      ///< of the input file: a polygon may hold several triangles
+  MissingReport missing;
+};
+
+/// How well one class of the model (the model itself when it has no classes) explains the mesh.
+struct ClassReport {
+  std::string name;
+  double log_evidence = 0;  ///< against "everything is clutter"
+  double probability = 0;   ///< over the classes of this model and none of them
+  bool fits = false;        ///< a class rule: its features are present, its relationships satisfied
+};
+
+struct AlternativeReport {
+  double probability = 0;
+  double cost = 0;
+  std::vector<std::pair<std::string, int>> candidates;  ///< feature, rank of its candidate from 1; 0 = missing
+};
+
+struct Result {
+  std::string mesh_path;
+  Index vertices = 0, faces = 0;
+  Box box;
+  double mean_edge = 0;
+  std::string model;
+  std::string status;            ///< labelled, partial, none
+  std::string class_name;        ///< for a model with class rules: the best; empty when none fits
+  std::vector<ClassReport> classes;
+  double log_evidence = 0;
+  std::string guarantee;         ///< what the labeler promises
+  bool optimal = false;
+  std::vector<FeatureReport> features;
+  std::vector<RelationReport> relations;
+  std::vector<AlternativeReport> alternatives;
+  std::vector<std::pair<std::string, CandidateCount>> candidates;
+  std::size_t working_sets = 0;
+  Timings timings;
+  std::vector<PluginUse> plugins;
+};
+
+/// The station *explain*: the labelling mapped back to the input mesh, with reasons.
+Result explain(const Analysis& analysis, const Model& model, const std::string& mesh_path, const Stations& stations,
+               Context& context);
+
+/// result.json (schemas/result.schema.json).
+std::string to_json(const Result& result);
+/// The same on one line.
+std::string to_json_line(const Result& result);
+
+/// The table that `run` prints.
+std::string to_text(const Result& result);
+
+/// labels.ply: the input mesh with one label (0 none, 1 + feature index) and colour per triangle.
+void write_labels(const std::filesystem::path& path, const Mesh& input, const Result& result);
+
+}  // namespace toposcope

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sample/isosurface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace toposcope {
+
+namespace {
+
+constexpr std::size_t block = 8;
+constexpr Index none = std::numeric_limits<Index>::max();
+
+/// Node values on a grid, x fastest; its size is a multiple of the block in each direction.
+struct Grid {
+  Vec3 origin;
+  double spacing = 0;
+  std::array<std::size_t, 3> size = {0, 0, 0};
+  std::vector<float> values;
+
+  std::size_t node(std::size_t x, std::size_t y, std::size_t z) const { return x + size[0] * (y + size[1] * z); }
+  Vec3 position(std::size_t x, std::size_t y, std::size_t z, const Vec3& within = Vec3::Zero()) const {
+    const Vec3 corner(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+    return origin + spacing * (corner + within);
+  }
+};
+
+Grid make_grid(const Vec3& low, const Vec3& high, double spacing) {
+  Grid grid;
+  grid.spacing = spacing;
+  // An odd offset keeps the planes of the object off the planes of the grid, where signs would be those of rounding.
+  grid.origin = low - spacing * Vec3(1.3713, 1.4159, 1.4771);
+  double total = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double cells = std::ceil((high[i] - grid.origin[i]) / spacing + 1.5) + 1;
+    total *= cells + block;
+    if (total > 2147483648.0) throw std::length_error("a grid of more than 2^31 nodes");
+    grid.size[i] = (static_cast<std::size_t>(cells) + block - 1) / block * block;
+  }
+  grid.values.resize(grid.size[0] * grid.size[1] * grid.size[2]);
+  return grid;
+}
+
+void fill(Grid& grid, const Implicit& surface, Context& context) {
+  const std::array<std::size_t, 3> blocks = {grid.size[0] / block, grid.size[1] / block, grid.size[2] / block};
+  // A block whose centre is farther away than its corners has one sign; the block's last cells reach one node further.
+  const double reach = 1.25 * grid.spacing * (block + 1) * std::sqrt(3.0) / 2;
+  context.parallel_for(blocks[0] * blocks[1] * blocks[2], 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b) {
+      const std::size_t x0 = b % blocks[0] * block, y0 = b / blocks[0] % blocks[1] * block,
+                        z0 = b / (blocks[0] * blocks[1]) * block;
+      const Vec3 half = Vec3::Constant((block - 1) / 2.0);
+      const double center = surface(grid.position(x0, y0, z0, half)).value;
+      const bool far = std::abs(center) > reach;
+      for (std::size_t z = z0; z < z0 + block; ++z)
+        for (std::size_t y = y0; y < y0 + block; ++y)
+          for (std::size_t x = x0; x < x0 + block; ++x)
+            grid.values[grid.node(x, y, z)] = static_cast<float>(far ? center : surface(grid.position(x, y, z)).value);
+    }
+  });
+}
+
+/// The corners of a cell: bit 0 is x, bit 1 y, bit 2 z. Its edges join corners that differ in one bit.
+std::array<float, 8> corner_values(const Grid& grid, std::size_t x, std::size_t y, std::size_t z) {
+  std::array<float, 8> values;
+  for (std::size_t c = 0; c < 8; ++c) values[c] = grid.values[grid.node(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2))];
+  return values;
+}
+
+/// Mean of the points where the surface crosses the cell's edges, in cells from the cell's first corner.
+Vec3 crossing_mean(const std::array<float, 8>& values) {
+  Vec3 sum = Vec3::Zero();
+  int count = 0;
+  for (std::size_t c = 0; c < 8; ++c)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t d = c | (std::size_t{1} << axis);
+      if (d == c || (values[c] < 0) == (values[d] < 0)) continue;
+      Vec3 point(c & 1 ? 1 : 0, c & 2 ? 1 : 0, c & 4 ? 1 : 0);
+      const double from = values[c], to = values[d];
+      point[static_cast<Eigen::Index>(axis)] = from / (from - to);
+      sum += point;
+      ++count;
+    }
+  return sum / count;
+}
+
+void add_quad(TriangleSoup& mesh, const std::array<Index, 4>& q) {
+  const auto gap = [&](int i, int j) { return (mesh.positions[q[i]] - mesh.positions[q[j]]).squaredNorm(); };
+  if (gap(0, 2) <= gap(1, 3)) {
+    mesh.triangles.push_back({q[0], q[1], q[2]});
+    mesh.triangles.push_back({q[0], q[2], q[3]});
+  } else {
+    mesh.triangles.push_back({q[0], q[1], q[3]});
+    mesh.triangles.push_back({q[1], q[2], q[3]});
+  }
+}
+
+}  // namespace
+
+TriangleSoup extract_isosurface(const Implicit& surface, const Vec3& low, const Vec3& high, double spacing,
+                                Context& context) {
+  Grid grid = make_grid(low, high, spacing);
+  fill(grid, surface, context);
+
+  TriangleSoup mesh;
+  std::vector<Index> vertex_of(grid.values.size(), none);
+  for (std::size_t z = 0; z + 1 < grid.size[2]; ++z)
+    for (std::size_t y = 0; y + 1 < grid.size[1]; ++y)
+      for (std::size_t x = 0; x + 1 < grid.size[0]; ++x) {
+        const std::array<float, 8> values = corner_values(grid, x, y, z);
+        const auto inside = std::count_if(values.begin(), values.end(), [](float v) { return v < 0; });
+        if (inside == 0 || inside == 8) continue;
+        vertex_of[grid.node(x, y, z)] = static_cast<Index>(mesh.positions.size());
+        mesh.positions.push_back(grid.position(x, y, z, crossing_mean(values)));
+      }
+  context.parallel_for(mesh.positions.size(), 1024, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) mesh.positions[v] = project(surface, mesh.positions[v], spacing);
+  });
+
+  for (std::size_t z = 1; z + 1 < grid.size[2]; ++z)
+    for (std::size_t y = 1; y + 1 < grid.size[1]; ++y)
+      for (std::size_t x = 1; x + 1 < grid.size[0]; ++x) {
+        const std::array<std::size_t, 3> step = {1, grid.size[0], grid.size[0] * grid.size[1]};
+        const std::size_t node = grid.node(x, y, z);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const bool from = grid.values[node] < 0, to = grid.values[node + step[axis]] < 0;
+          if (from == to) continue;
+          const std::size_t u = step[(axis + 1) % 3], v = step[(axis + 2) % 3];
+          std::array<Index, 4> quad = {vertex_of[node - u - v], vertex_of[node - v], vertex_of[node],
+                                       vertex_of[node - u]};
+          if (to) std::swap(quad[1], quad[3]);  // counter-clockwise seen from outside
+          add_quad(mesh, quad);
+        }
+      }
+  return mesh;
+}
+
+bool is_closed_manifold(const TriangleSoup& mesh) {
+  struct Spoke {  // in the star of `center` the face leads from one neighbour to the next
+    Index center, from, to;
+    bool operator<(const Spoke& other) const {
+      return center != other.center ? center < other.center : from < other.from;
+    }
+  };
+  std::vector<Spoke> spokes;
+  spokes.reserve(3 * mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) spokes.push_back({t[i], t[(i + 1) % 3], t[(i + 2) % 3]});
+  std::sort(spokes.begin(), spokes.end());
+  for (auto star = spokes.begin(); star != spokes.end();) {
+    const auto end = std::find_if(star, spokes.end(), [&](const Spoke& s) { return s.center != star->center; });
+    if (std::adjacent_find(star, end, [](const Spoke& a, const Spoke& b) { return a.from == b.from; }) != end)
+      return false;
+    Index neighbor = star->from;
+    std::ptrdiff_t count = 0;
+    do {
+      const auto next = std::lower_bound(star, end, Spoke{star->center, neighbor, 0});
+      if (next == end || next->from != neighbor) return false;
+      neighbor = next->to;
+      ++count;
+    } while (neighbor != star->from && count <= end - star);
+    if (count != end - star) return false;
+    star = end;
+  }
+  return true;
+}
+
+}  // namespace toposcope

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sample/remesh.h"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModBaseT.hh>
+#include <algorithm>
+#include <cmath>
+
+namespace toposcope {
+
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  using Normal = OpenMesh::Vec3d;
+  VertexAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::Normal);
+  EdgeAttributes(OpenMesh::Attributes::Status);
+  HalfedgeAttributes(OpenMesh::Attributes::Status);
+  FaceAttributes(OpenMesh::Attributes::Status);
+};
+using Halfedges = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+using Point = Halfedges::Point;
+
+Point to_point(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+Vec3 to_vec(const Point& p) {
+  return {p[0], p[1], p[2]};
+}
+
+/// How well a face at these corners follows the surface: cosine between its normal and the corners' normals.
+double agreement(const Point& a, const Point& b, const Point& c, const Point& normal) {
+  const Point area = (b - a) % (c - a);
+  const double size = area.norm() * normal.norm();
+  return size > 0 ? (area | normal) / size : -1;
+}
+
+/// Target edge lengths: short where the surface bends, so that a chord spans at most about `turn` radians of it,
+/// growing slowly away from there.
+struct SizeField {
+  static constexpr double turn = 0.7;
+  static constexpr double least = 0.4;   ///< of the greatest
+  static constexpr double growth = 0.4;  ///< of the target length, per length along the surface
+  double greatest = 0;
+  std::vector<double> target;  ///< by vertex
+
+  double along(const Halfedges& mesh, Halfedges::EdgeHandle e) const {
+    const auto h = mesh.halfedge_handle(e, 0);
+    return 0.5 * (target[index(mesh.from_vertex_handle(h))] + target[index(mesh.to_vertex_handle(h))]);
+  }
+  static std::size_t index(Halfedges::VertexHandle v) { return static_cast<std::size_t>(v.idx()); }
+};
+
+SizeField measure_sizes(const Halfedges& mesh, double greatest) {
+  SizeField sizes{greatest, std::vector<double>(mesh.n_vertices(), greatest)};
+  const auto for_each_edge = [&](const auto& bound) {
+    for (const auto e : mesh.edges()) {
+      const auto h = mesh.halfedge_handle(e, 0);
+      const auto p = mesh.from_vertex_handle(h), q = mesh.to_vertex_handle(h);
+      bound(p, q, (mesh.point(q) - mesh.point(p)).norm());
+    }
+  };
+  for_each_edge([&](auto p, auto q, double length) {
+    const double bend = std::acos(std::clamp(mesh.normal(p) | mesh.normal(q), -1.0, 1.0));
+    const double target = std::max(SizeField::least * greatest, SizeField::turn * length / std::max(bend, 1e-9));
+    for (const auto v : {p, q}) sizes.target[SizeField::index(v)] = std::min(sizes.target[SizeField::index(v)], target);
+  });
+  for (int pass = 0; pass < 4; ++pass)
+    for_each_edge([&](auto p, auto q, double length) {
+      double &a = sizes.target[SizeField::index(p)], &b = sizes.target[SizeField::index(q)];
+      a = std::min(a, b + SizeField::growth * length);
+      b = std::min(b, a + SizeField::growth * length);
+    });
+  return sizes;
+}
+
+/// Shortest edges first, as measured by their target length.
+template <class MeshT>
+class ModTargetLength : public OpenMesh::Decimater::ModBaseT<MeshT> {
+ public:
+  DECIMATING_MODULE(ModTargetLength, MeshT, TargetLength);
+
+  explicit ModTargetLength(MeshT& mesh) : Base(mesh, false) {}
+  void set_sizes(const SizeField* sizes) { sizes_ = sizes; }
+
+  float collapse_priority(const CollapseInfo& info) override {
+    MeshT& mesh = Base::mesh();
+    const Point& kept = mesh.normal(info.v1);
+    for (auto it = mesh.cvoh_iter(info.v0); it.is_valid(); ++it) {
+      const auto b = mesh.to_vertex_handle(*it), c = mesh.to_vertex_handle(mesh.next_halfedge_handle(*it));
+      if (b == info.v1 || c == info.v1) continue;
+      const Point normal = kept + mesh.normal(b) + mesh.normal(c);
+      if (agreement(info.p1, mesh.point(b), mesh.point(c), normal) < least_agreement)
+        return float(Base::ILLEGAL_COLLAPSE);
+    }
+    return static_cast<float>((info.p1 - info.p0).norm() / sizes_->along(mesh, mesh.edge_handle(info.v0v1)));
+  }
+
+ private:
+  static constexpr double least_agreement = 0.5;
+  const SizeField* sizes_ = nullptr;
+};
+
+/// Cuts edges that are longer than their target at their middle.
+void split_edges(Halfedges& mesh, const Implicit& surface, double greatest, double scale) {
+  constexpr double longest = 1.5;
+  const SizeField sizes = measure_sizes(mesh, greatest);
+  std::vector<Halfedges::EdgeHandle> edges;
+  for (const auto e : mesh.edges())
+    if (mesh.calc_edge_length(e) > longest * sizes.along(mesh, e)) edges.push_back(e);
+  for (const auto e : edges) {
+    const auto h = mesh.halfedge_handle(e, 0);
+    const Point& p = mesh.point(mesh.from_vertex_handle(h));
+    const Point& q = mesh.point(mesh.to_vertex_handle(h));
+    const Vec3 middle = project(surface, to_vec(0.5 * (p + q)), scale);
+    const Vec3 normal = surface(middle).gradient.normalized();
+    const auto v = mesh.add_vertex(to_point(middle));
+    mesh.set_normal(v, to_point(normal));
+    mesh.split(e, v);
+  }
+}
+
+void decimate(Halfedges& mesh, double greatest, std::size_t faces) {
+  const SizeField sizes = measure_sizes(mesh, greatest);
+  using Decimater = OpenMesh::Decimater::DecimaterT<Halfedges>;
+  Decimater decimater(mesh);
+  ModTargetLength<Halfedges>::Handle handle;
+  decimater.add(handle);
+  decimater.module(handle).set_sizes(&sizes);
+  decimater.initialize();
+  decimater.decimate_to_faces(0, faces);
+  mesh.garbage_collection();
+}
+
+/// Distance of an edge's middle from the surface.
+double chord_error(const Implicit& surface, const Point& p, const Point& q) {
+  return std::abs(surface(to_vec(0.5 * (p + q))).value);
+}
+
+/// Flips edges whose opposite angles sum to more than pi where the new edge follows the surface as well, and edges that
+/// leave the surface where the new one follows it better.
+std::size_t flip_edges(Halfedges& mesh, const Implicit& surface) {
+  std::size_t flips = 0;
+  for (const auto edge : mesh.edges()) {
+    const auto h = mesh.halfedge_handle(edge, 0), o = mesh.halfedge_handle(edge, 1);
+    const auto p = mesh.from_vertex_handle(h), q = mesh.to_vertex_handle(h);
+    const auto a = mesh.to_vertex_handle(mesh.next_halfedge_handle(h)),
+               b = mesh.to_vertex_handle(mesh.next_halfedge_handle(o));
+    const Point &pp = mesh.point(p), &pq = mesh.point(q), &pa = mesh.point(a), &pb = mesh.point(b);
+    const auto cotangent = [](const Point& apex, const Point& u, const Point& v) {
+      const double area = ((u - apex) % (v - apex)).norm();
+      return ((u - apex) | (v - apex)) / std::max(area, 1e-300);
+    };
+    const double delaunay = cotangent(pa, pp, pq) + cotangent(pb, pp, pq);
+    if (delaunay > 1 || mesh.valence(p) < 5 || mesh.valence(q) < 5 || !mesh.is_flip_ok(edge)) continue;
+    const Point &np = mesh.normal(p), &nq = mesh.normal(q), &na = mesh.normal(a), &nb = mesh.normal(b);
+    const double before = std::min(agreement(pp, pq, pa, np + nq + na), agreement(pq, pp, pb, np + nq + nb));
+    const double after = std::min(agreement(pp, pb, pa, np + nb + na), agreement(pq, pa, pb, nq + na + nb));
+    if (after < std::min(0.8, before)) continue;
+    const double error = chord_error(surface, pp, pq), new_error = chord_error(surface, pa, pb);
+    const double length = (pa - pb).norm();
+    const bool rounder = delaunay < -1e-3 && new_error <= error + 0.02 * length;
+    const bool closer = error > 0.08 * length && new_error < 0.5 * error;
+    if (!rounder && !closer) continue;
+    mesh.flip(edge);
+    ++flips;
+  }
+  return flips;
+}
+
+/// Moves every vertex towards the mean of its neighbours, weighted by the faces between them in units of the target
+/// size, in its tangent plane, then back onto the surface. A vertex stays where it would leave its sheet of a thin wall
+/// or turn a face over.
+void relax(Halfedges& mesh, const Implicit& surface, double greatest, double scale, Context& context) {
+  const SizeField sizes = measure_sizes(mesh, greatest);
+  const std::size_t count = mesh.n_vertices();
+  std::vector<Point> moved(count), normals(count);
+  context.parallel_for(count, 512, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Halfedges::VertexHandle v(static_cast<int>(i));
+      const Point here = mesh.point(v), normal = mesh.normal(v);
+      moved[i] = here;
+      normals[i] = normal;
+      Point sum(0, 0, 0);
+      double weight = 0;
+      for (auto it = mesh.cvoh_iter(v); it.is_valid(); ++it) {
+        const auto b = mesh.to_vertex_handle(*it), c = mesh.to_vertex_handle(mesh.next_halfedge_handle(*it));
+        const Point &p = mesh.point(b), &q = mesh.point(c);
+        const double size = sizes.target[i] + sizes.target[SizeField::index(b)] + sizes.target[SizeField::index(c)];
+        const double mass = ((p - here) % (q - here)).norm() / (size * size * size);
+        sum += mass * (p + q + here) / 3.0;
+        weight += mass;
+      }
+      if (!(weight > 0)) continue;
+      Point step = sum / weight - here;
+      step -= (step | normal) * normal;
+      const Vec3 target = project(surface, to_vec(here + 0.7 * step), scale);
+      const Vec3 turned = surface(target).gradient.normalized();
+      if ((to_vec(here) - target).squaredNorm() > 4 * step.sqrnorm() + 1e-24 * scale * scale) continue;
+      if (turned.dot(to_vec(normal)) < 0.5) continue;
+      const Point there = to_point(target), facing = to_point(turned);
+      bool sound = true;
+      for (auto it = mesh.cvoh_iter(v); it.is_valid() && sound; ++it) {
+        const auto b = mesh.to_vertex_handle(*it), c = mesh.to_vertex_handle(mesh.next_halfedge_handle(*it));
+        const double before = agreement(here, mesh.point(b), mesh.point(c), normal + mesh.normal(b) + mesh.normal(c));
+        const double after = agreement(there, mesh.point(b), mesh.point(c), facing + mesh.normal(b) + mesh.normal(c));
+        sound = after >= std::min(before, 0.5);
+      }
+      if (!sound) continue;
+      moved[i] = there;
+      normals[i] = facing;
+    }
+  });
+  for (std::size_t i = 0; i < count; ++i) {
+    const Halfedges::VertexHandle v(static_cast<int>(i));
+    mesh.set_point(v, moved[i]);
+    mesh.set_normal(v, normals[i]);
+  }
+}
+
+void improve(Halfedges& mesh, const Implicit& surface, double greatest, double scale, int rounds, Context& context) {
+  for (int i = 0; i < rounds && !context.cancelled(); ++i) {
+    flip_edges(mesh, surface);
+    relax(mesh, surface, greatest, scale, context);
+  }
+}
+
+Halfedges to_halfedges(const TriangleSoup& soup, const Implicit& surface, Context& context) {
+  Halfedges mesh;
+  mesh.reserve(soup.positions.size(), 3 * soup.triangles.size() / 2, soup.triangles.size());
+  for (const Vec3& p : soup.positions) mesh.add_vertex(to_point(p));
+  context.parallel_for(soup.positions.size(), 1024, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      mesh.set_normal(Halfedges::VertexHandle(static_cast<int>(i)),
+                      to_point(surface(soup.positions[i]).gradient.normalized()));
+  });
+  for (const Triangle& t : soup.triangles)
+    mesh.add_face(Halfedges::VertexHandle(static_cast<int>(t[0])), Halfedges::VertexHandle(static_cast<int>(t[1])),
+                  Halfedges::VertexHandle(static_cast<int>(t[2])));
+  return mesh;
+}
+
+}  // namespace
+
+TriangleSoup remesh(const TriangleSoup& soup, const Implicit& surface, Index faces, Context& context) {
+  Halfedges mesh = to_halfedges(soup, surface, context);
+  double scale = 0;
+  for (const Vec3& p : soup.positions) scale = std::max(scale, (p - soup.positions.front()).norm());
+
+  double area = 0;
+  for (const auto f : mesh.faces()) area += mesh.calc_face_area(f);
+  const double even = std::sqrt(4 / std::sqrt(3.0) * area / faces);  // edge of equal equilateral triangles
+
+  // In two steps: the second sees well-shaped triangles, so that few are left that could not be collapsed.
+  improve(mesh, surface, even, scale, 1, context);
+  split_edges(mesh, surface, even, scale);
+  decimate(mesh, even, static_cast<std::size_t>(1.4 * faces));
+  improve(mesh, surface, even, scale, 3, context);
+  for (int attempt = 0; attempt < 4 && mesh.n_faces() > faces + 1; ++attempt) {
+    decimate(mesh, even, faces);
+    improve(mesh, surface, even, scale, 4, context);
+  }
+  improve(mesh, surface, even, scale, 8, context);
+
+  TriangleSoup result;
+  result.positions.reserve(mesh.n_vertices());
+  for (const auto v : mesh.vertices()) result.positions.push_back(to_vec(mesh.point(v)));
+  for (const auto f : mesh.faces()) {
+    Triangle triangle;
+    std::size_t corner = 0;
+    for (const auto v : mesh.fv_range(f)) triangle[corner++] = static_cast<Index>(v.idx());
+    result.triangles.push_back(triangle);
+  }
+  return result;
+}
+
+}  // namespace toposcope

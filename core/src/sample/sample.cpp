@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sample/sample.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <random>
+#include <set>
+#include <stdexcept>
+
+#include "base/errors.h"
+#include "base/nearest_name.h"
+#include "sample/isosurface.h"
+#include "sample/remesh.h"
+#include "sample/solid.h"
+
+namespace toposcope {
+
+namespace {
+
+double to_number(const std::string& text) {
+  double value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);  // not strtod: it follows the locale
+  return value;
+}
+
+const SampleKind& find_kind(const std::vector<SampleKind>& kinds, const std::string& name) {
+  std::vector<std::string> names;
+  for (const SampleKind& kind : kinds) {
+    if (kind.name == name) return kind;
+    names.push_back(kind.name);
+  }
+  throw UsageError(fmt::format("sample kind '{}' is not known: {}", name, name_remedy(name, names)));
+}
+
+void check_request(const SampleRequest& request) {
+  if (request.faces < 500 || request.faces > 2000000)
+    throw UsageError(fmt::format("{}: faces is {}: it must lie between 500 and 2000000; the default is 20000",
+                                 request.kind, request.faces));
+  if (!(request.noise_rel >= 0 && request.noise_rel <= 0.1))
+    throw UsageError(fmt::format("{}: noise is {} box diagonals: it must lie between 0 and 0.1, such as 0.001",
+                                 request.kind, request.noise_rel));
+}
+
+/// Meshes the solid on a grid that resolves its thinnest part and gives more faces than asked for, and thins that.
+TriangleSoup mesh_solid(const Solid& solid, const SampleRequest& request, Context& context) {
+  const double faces = request.faces;
+  double spacing = 0.55 * solid.thinnest;  // below 1 / sqrt(3): no cell meets both sides of a wall
+  TriangleSoup fine;
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    try {
+      fine = extract_isosurface(solid.surface, solid.low, solid.high, spacing, context);
+    } catch (const std::length_error&) {
+      throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
+                                   solid.thinnest_parameter, solid.thinnest));
+    }
+    const double found = static_cast<double>(fine.triangles.size());
+    if (found < 1.2 * faces)
+      spacing *= std::sqrt(found / (1.35 * faces));
+    else if (!is_closed_manifold(fine))
+      spacing *= 0.87;  // two sheets meet in one cell
+    else
+      break;
+    fine = {};
+  }
+  if (fine.triangles.empty())
+    throw UsageError(fmt::format("{}: {} is {}: no grid resolves the object; give more", request.kind,
+                                 solid.thinnest_parameter, solid.thinnest));
+  TriangleSoup mesh = remesh(fine, solid.surface, request.faces, context);
+  if (static_cast<double>(mesh.triangles.size()) > 1.03 * faces)
+    throw UsageError(fmt::format("{}: faces is {}: the object's curved parts need at least {} faces; ask for more",
+                                 request.kind, request.faces, mesh.triangles.size()));
+  return mesh;
+}
+
+/// For each point the nearest vertex; points whose vertex is taken already are dropped.
+void mark_vertices(SampleFeature& feature, const std::vector<Vec3>& positions) {
+  std::set<Index> taken;
+  std::vector<Vec3> points;
+  std::vector<Index> renumbered(feature.points.size());
+  std::vector<bool> kept(feature.points.size(), false);
+  for (std::size_t i = 0; i < feature.points.size(); ++i) {
+    const auto distance = [&](const Vec3& p) { return (p - feature.points[i]).squaredNorm(); };
+    const auto nearest = std::min_element(positions.begin(), positions.end(),
+                                          [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
+    const auto vertex = static_cast<Index>(nearest - positions.begin());
+    if (!taken.insert(vertex).second) continue;
+    kept[i] = true;
+    renumbered[i] = static_cast<Index>(points.size());
+    points.push_back(feature.points[i]);
+    feature.vertices.push_back(vertex);
+  }
+  feature.points = std::move(points);
+  for (auto& [name, members] : feature.groups) {
+    std::erase_if(members, [&](Index i) { return !kept[i]; });
+    for (Index& i : members) i = renumbered[i];
+  }
+}
+
+/// Standard normal numbers in pairs (Box and Muller 1958): std::normal_distribution differs between libraries.
+struct Gaussian {
+  std::mt19937_64 engine;
+  double spare = 0;
+  bool has_spare = false;
+
+  double uniform() { return (static_cast<double>(engine() >> 11) + 0.5) * 0x1p-53; }
+  double operator()() {
+    if (has_spare) {
+      has_spare = false;
+      return spare;
+    }
+    const double radius = std::sqrt(-2 * std::log(uniform())), angle = 2 * pi * uniform();
+    spare = radius * std::sin(angle);
+    has_spare = true;
+    return radius * std::cos(angle);
+  }
+};
+
+void add_noise(std::vector<Vec3>& positions, const Implicit& surface, const SampleRequest& request) {
+  Vec3 low = positions.front(), high = low;
+  for (const Vec3& p : positions) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double sd = request.noise_rel * (high - low).norm();
+  Gaussian gaussian{std::mt19937_64(request.seed)};
+  for (Vec3& p : positions) p += sd * gaussian() * surface(p).gradient.normalized();
+}
+
+}  // namespace
+
+OptionRow length_parameter(const char* name, const char* default_value, const char* minimum, const char* meaning) {
+  return {name, OptionType::real, "length", default_value, minimum, "", meaning};
+}
+
+OptionRow switch_parameter(const char* name, const char* default_value, const char* meaning) {
+  return {name, OptionType::boolean, "", default_value, "0", "1", meaning};
+}
+
+double parameter(const ParameterValues& values, std::string_view name) {
+  for (const auto& [key, value] : values)
+    if (key == name) return value;
+  throw std::logic_error("no parameter '" + std::string(name) + "' in the kind's table");
+}
+
+void require(bool holds, const std::string& kind, const std::string& name, double value, const std::string& constraint,
+             const std::string& remedy) {
+  if (!holds) throw UsageError(fmt::format("{}: {} is {}: {}; {}", kind, name, value, constraint, remedy));
+}
+
+SampleFeature circle_feature(const std::string& name, const Vec3& center, const Vec3& normal, double radius,
+                             std::size_t count) {
+  SampleFeature feature{name, "circle", {}, {}, {}, {}};
+  feature.parameters = {{"center", {center.x(), center.y(), center.z()}},
+                        {"normal", {normal.x(), normal.y(), normal.z()}},
+                        {"radius", {radius}}};
+  const Vec3 u = (std::abs(normal.z()) < 0.9 ? normal.cross(Vec3::UnitZ()) : normal.cross(Vec3::UnitX())).normalized();
+  const Vec3 v = normal.cross(u);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = 2 * pi * static_cast<double>(i) / static_cast<double>(count);
+    feature.points.push_back(center + radius * (std::cos(angle) * u + std::sin(angle) * v));
+  }
+  return feature;
+}
+
+ParameterValues check_parameters(const SampleKind& kind, const std::map<std::string, double>& given) {
+  ParameterValues values;
+  std::vector<std::string> names;
+  for (const OptionRow& row : kind.parameters) {
+    const auto it = given.find(row.name);
+    const double value = it == given.end() ? to_number(row.default_value) : it->second;
+    if (row.type == OptionType::boolean)
+      require(value == 0 || value == 1, kind.name, row.name, value, "it must be 0 (no) or 1 (yes)",
+              "the default is " + row.default_value);
+    else
+      require(std::isfinite(value) && value > to_number(row.minimum), kind.name, row.name, value,
+              "it must be a finite number greater than " + row.minimum, "the default is " + row.default_value);
+    values.emplace_back(row.name, value);
+    names.push_back(row.name);
+  }
+  for (const auto& [name, value] : given)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError(fmt::format("{}: parameter '{}' (given {}) is not known: {}", kind.name, name, value,
+                                   name_remedy(name, names)));
+  return values;
+}
+
+std::vector<SampleKind> sample_kinds() {
+  return {cup_kind(), tee_kind()};
+}
+
+Solid make_solid(const std::string& kind, const ParameterValues& parameters) {
+  if (kind == "cup") return make_cup(parameters);
+  if (kind == "tee") return make_tee(parameters);
+  throw std::logic_error("sample kind '" + kind + "' is listed but cannot be made");
+}
+
+Sample make_sample(const SampleRequest& request, Context& context) {
+  const std::vector<SampleKind> kinds = sample_kinds();
+  const SampleKind& kind = find_kind(kinds, request.kind);
+  check_request(request);
+  Sample sample;
+  sample.kind = request.kind;
+  sample.parameters = check_parameters(kind, request.parameters);
+  sample.noise_rel = request.noise_rel;
+  sample.seed = request.seed;
+
+  const Solid solid = make_solid(request.kind, sample.parameters);
+  sample.mesh = mesh_solid(solid, request, context);
+  const auto& triangles = sample.mesh.triangles;
+  std::vector<Vec3>& positions = sample.mesh.positions;
+  sample.mesh.input_faces = static_cast<Index>(triangles.size());
+  for (Index f = 0; f < sample.mesh.input_faces; ++f) sample.mesh.face_origin.push_back(f);
+
+  sample.features = solid.features;
+  for (SampleFeature& feature : sample.features) mark_vertices(feature, positions);
+  sample.part_names = solid.part_names;
+  for (const Triangle& t : triangles) {
+    const Vec3 center = (positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3;
+    sample.face_part.push_back(static_cast<std::uint8_t>(solid.part_of(center)));
+  }
+  if (request.noise_rel > 0) add_noise(positions, solid.surface, request);
+  context.log(LogLevel::debug,
+              fmt::format("{}: {} vertices, {} faces", request.kind, positions.size(), triangles.size()));
+  return sample;
+}
+
+}  // namespace toposcope

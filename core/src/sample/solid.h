@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// What a kind of parametric object gives to make_sample: its exact surface and its truth.
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sample/implicit.h"
+#include "sample/sample.h"
+
+namespace toposcope {
+
+struct Solid {
+  Implicit surface;
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< contain the solid
+  double thinnest = 0;                  ///< least thickness of material or gap: no cell of the grid may reach across it
+  std::string thinnest_parameter;       ///< the parameter that sets it
+  std::vector<SampleFeature> features;  ///< without `vertices`
+  std::vector<std::string> part_names;
+  std::function<std::size_t(const Vec3&)> part_of;  ///< part of a point on the surface
+};
+
+/// Values of all parameters of a kind, in the order of its table.
+using ParameterValues = std::vector<std::pair<std::string, double>>;
+
+/// Fills in the defaults and checks names and ranges. \throw UsageError
+ParameterValues check_parameters(const SampleKind& kind, const std::map<std::string, double>& given);
+
+/// Builds the exact solid of a kind. \throw UsageError  parameters that contradict each other
+Solid make_solid(const std::string& kind, const ParameterValues& parameters);
+
+/// Throws UsageError "kind: <constraint>; <parameter> is <value>: <remedy>" unless `holds`.
+void require(bool holds, const std::string& kind, const std::string& parameter, double value,
+             const std::string& constraint, const std::string& remedy);
+
+SampleKind cup_kind();
+Solid make_cup(const ParameterValues& parameters);
+SampleKind tee_kind();
+Solid make_tee(const ParameterValues& parameters);
+
+/// A row for a parameter that is a length.
+OptionRow length_parameter(const char* name, const char* default_value, const char* minimum, const char* meaning);
+/// A row for a part that may be left out: 0 or 1.
+OptionRow switch_parameter(const char* name, const char* default_value, const char* meaning);
+double parameter(const ParameterValues& values, std::string_view name);
+
+/// Truth of a circle: its parameters and `count` points on it.
+SampleFeature circle_feature(const std::string& name, const Vec3& center, const Vec3& normal, double radius,
+                             std::size_t count = 48);
+
+}  // namespace toposcope

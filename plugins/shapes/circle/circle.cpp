@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fits a circle in space to working sets (dissertation 4.4.1) and says what it explains of them.
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "circle_fit.h"
+#include "toposcope/geometry.h"
+#include "toposcope/plugin.h"
+
+namespace toposcope::circle {
+namespace {
+
+constexpr double radius_limit_diagonals = 100;
+constexpr std::size_t outline_limit = 512;
+constexpr double least_bins = 32, bins_per_edge = 4, max_bins = 1 << 18;
+
+/// Marks the bins of a turn within half of `width` of a position (turn and width: 1 = all). A point stands for an edge
+/// length of arc about itself: marking only the bin that holds it would leave gaps between points an edge apart.
+void fill(double position, double width, std::vector<char>& filled) {
+  const auto count = static_cast<std::ptrdiff_t>(filled.size());
+  const auto bin = [&](double x) { return static_cast<std::ptrdiff_t>(std::floor(x * static_cast<double>(count))); };
+  const std::ptrdiff_t first = bin(position - width / 2), last = std::min(bin(position + width / 2), first + count - 1);
+  for (std::ptrdiff_t i = first; i <= last; ++i) filled[static_cast<std::size_t>((i + count) % count)] = 1;
+}
+
+Vec3 vector_of(const FittedShape& shape, std::size_t parameter) {
+  return Vec3(shape.parameters[parameter].values.data());
+}
+
+/// Inverse of a normal matrix whose variances end at `limit`: a direction that the points leave open is uncertain, not
+/// exact as a pseudo-inverse would have it.
+Eigen::Matrix<double, 6, 6> covariance_of(const Eigen::Matrix<double, 6, 6>& information, double limit) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(information);
+  const Eigen::Matrix<double, 6, 1> variance = eigen.eigenvalues().cwiseMax(1 / limit).cwiseInverse();
+  return eigen.eigenvectors() * variance.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+/// Axes of the circle's plane that turn with the points: the first towards their centroid where that is not the
+/// centre, so that bins and outline do not depend on the pose.
+std::array<Vec3, 2> plane_axes(const Circle& circle, std::span<const Vec3> points) {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& point : points) mean += (point - circle.center) / static_cast<double>(points.size());
+  mean -= mean.dot(circle.normal) * circle.normal;
+  const Vec3 u = mean.norm() > 1e-6 * circle.radius ? Vec3(mean.normalized()) : any_perpendicular(circle.normal);
+  return {u, circle.normal.cross(u)};
+}
+
+/// Fills in all that follows from the circle and the points.
+/// \param reach  points within it belong to the circle, mesh unit
+void describe(const Circle& circle, const FitInput& input, double reach, FittedShape& shape) {
+  const auto [u, v] = plane_axes(circle, input.points);
+  const double turn = 2 * pi * circle.radius, edge = input.mean_edge;
+  const double bins = std::clamp(std::round(turn / edge * bins_per_edge), least_bins, max_bins);
+  std::vector<char> filled(static_cast<std::size_t>(bins), 0);
+
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  std::size_t inliers = 0;
+  double squares = 0;
+  for (const Vec3& point : input.points) {
+    const double d2 = offset(circle, point).squared();
+    if (d2 > reach * reach) continue;
+    ++inliers;
+    squares += d2;
+    const Vec3 arm = point - circle.center;
+    fill(std::atan2(arm.dot(v), arm.dot(u)) / (2 * pi) + 0.5, std::min(edge / turn, 0.125), filled);
+    // All parameters as lengths: the tilts as the displacement that they give to points of the circle.
+    const auto rows = offset_derivative(circle, u / circle.radius, v / circle.radius, point);
+    information += rows.transpose() * rows;
+  }
+  if (inliers < 3) {
+    shape.summary.termination = Termination::failed;
+    shape.summary.message = std::to_string(inliers) + " of " + std::to_string(input.points.size()) +
+                            " points lie near the circle: 3 are needed (option 'scale')";
+    return;
+  }
+  const double n = static_cast<double>(inliers);
+  shape.rms = std::sqrt(squares / n);
+  shape.coverage = static_cast<double>(std::count(filled.begin(), filled.end(), 1)) / bins;
+  shape.explained = shape.coverage * turn / edge;
+  shape.unexplained = (static_cast<double>(input.points.size()) - n) / (n / shape.explained);
+
+  // Two components a point, six parameters; neighbouring vertices err alike, so about one sample per mean edge counts.
+  // Rounding is the least noise of coordinates.
+  const double rounding = 1e-16 * (input.object_box.diagonal() + circle.center.norm());
+  const double variance = std::max(squares / std::max(1.0, 2 * n - 6), rounding * rounding);
+  const double samples = std::min(n, std::max(1.0, shape.explained));
+  const double limit = circle.radius * circle.radius + input.box.diagonal() * input.box.diagonal();
+  const Eigen::Matrix<double, 6, 6> covariance = covariance_of(information * (samples / n / variance), limit);
+  Eigen::Matrix<double, 7, 6> spread = Eigen::Matrix<double, 7, 6>::Zero();  // to centre, normal, radius
+  spread.topLeftCorner<3, 3>().setIdentity();
+  spread.block<3, 1>(3, 3) = u / circle.radius;
+  spread.block<3, 1>(3, 4) = v / circle.radius;
+  spread(6, 5) = 1;
+  const Eigen::Matrix<double, 7, 7, Eigen::RowMajor> all = spread * covariance * spread.transpose();
+  shape.covariance_of = {"center.x", "center.y", "center.z", "normal.x", "normal.y", "normal.z", "radius"};
+  shape.covariance.assign(all.data(), all.data() + all.size());
+
+  const auto list = [](const Vec3& x) { return std::vector<double>{x.x(), x.y(), x.z()}; };
+  shape.parameters = {
+      {"center", 3, list(circle.center)}, {"normal", 3, list(circle.normal)}, {"radius", 1, {circle.radius}}};
+  shape.measures = {{"radius", circle.radius, std::sqrt(covariance(5, 5))}};
+  shape.orientation = Orientation::plane_like;
+  shape.direction = circle.normal;
+  shape.direction_sd = std::sqrt((covariance(3, 3) + covariance(4, 4)) / 2) / circle.radius;
+  shape.centroid = circle.center;
+  shape.centroid_sd = std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3);
+  shape.outline_closed = true;
+  const std::size_t count =
+      std::clamp<std::size_t>(static_cast<std::size_t>(std::min(turn / edge, 1e6)) + 1, 8, outline_limit);
+  shape.outline.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = 2 * pi * static_cast<double>(i) / static_cast<double>(count);
+    shape.outline[i] = circle.center + circle.radius * (std::cos(angle) * u + std::sin(angle) * v);
+  }
+}
+
+class CircleFitter final : public ShapeFitter {
+ public:
+  explicit CircleFitter(const Options& options)
+      : powell_(options.text("method") == "powell"), scale_(options.real("scale")) {}
+
+  FittedShape fit(const FitInput& input, const Options&, Context&) const override {
+    FittedShape shape;
+    if (input.points.size() < 3 || !(input.mean_edge > 0)) {
+      shape.summary.termination = Termination::degenerate;
+      shape.summary.message = input.points.size() < 3 ? "fewer than three points: no circle is determined"
+                                                      : "the mean edge length is zero: distances have no scale";
+      return shape;
+    }
+    const double limit = radius_limit_diagonals * input.box.diagonal(), scale = scale_ * input.mean_edge;
+    Estimate estimate = powell_ ? fit_powell(input.points, input.box, limit)
+                                : fit_robust(input.points, noise_floor_scales * scale, limit);
+    shape.summary = std::move(estimate.summary);
+    if (shape.summary.usable()) describe(estimate.circle, input, 2 * scale, shape);
+    return shape;
+  }
+
+  double distance(const FittedShape& shape, const Vec3& point) const override {
+    return std::sqrt(
+        offset({vector_of(shape, 0), vector_of(shape, 1), shape.parameters[2].values[0]}, point).squared());
+  }
+
+  /// The least radius stays open: the points that a robust fit leaves out may lie anywhere in the box.
+  Interval bounds(std::string_view measure, const Box& points) const override {
+    if (measure != "radius") return {};
+    return {0, radius_limit_diagonals * points.diagonal()};
+  }
+
+ private:
+  // Without it points that lie exactly on a circle would have the noise 0 and the next one would count as an outlier.
+  static constexpr double noise_floor_scales = 0.02;
+  bool powell_;
+  double scale_;
+};
+
+constexpr OptionSpec options[] = {
+    {"method", OptionType::text, "", "robust", "robust|powell", "",
+     "robust: outliers do not count; powell: least squares in the points' plane, as in the dissertation"},
+    {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", "points within two scales of the circle belong to it"},
+};
+constexpr ProvidedName measures[] = {{"radius", 1, "radius of the circle"}};
+
+}  // namespace
+}  // namespace toposcope::circle
+
+TOPOSCOPE_PLUGIN(ShapeFitter, toposcope::circle::CircleFitter,
+                 {.id = "circle",
+                  .version = "1.0.0",
+                  .summary = "circle in space: centre, normal, radius",
+                  .citation = "Neal 1999, section 4.4.1",
+                  .min_arity = 1,
+                  .max_arity = 0,
+                  .options = toposcope::circle::options,
+                  .provides = toposcope::circle::measures})

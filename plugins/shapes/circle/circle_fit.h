@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Estimators of a circle in space. They work in any pose and on any scale: all that they compute with is relative to
+// the points' centroid and spread.
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "toposcope/geometry.h"
+#include "toposcope/shapes.h"
+
+namespace toposcope::circle {
+
+struct Circle {
+  Vec3 center = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();  ///< unit length; its sign means nothing
+  double radius = 0;
+};
+
+/// How a point lies to a circle: its distance from the circle's cylinder and its height over the circle's plane. The
+/// distance from the circle is the length of the two.
+struct Offset {
+  double radial = 0, height = 0;
+  double squared() const { return radial * radial + height * height; }
+};
+Offset offset(const Circle& circle, const Vec3& point);
+
+/// Derivative of (radial, height) by the centre, by a change of the normal along `u` and along `v`, and by the radius.
+/// \param u, v  perpendicular to the normal, of any length
+Eigen::Matrix<double, 2, 6> offset_derivative(const Circle& circle, const Vec3& u, const Vec3& v, const Vec3& point);
+
+struct Estimate {
+  Circle circle;
+  FitSummary summary;
+};
+
+/// Least quantile of squares over three-point circles, concentrated by closed-form fits (Rousseeuw and Van Driessen
+/// 1999; Taubin 1991), then the Geman-McClure distance minimised by Levenberg-Marquardt (Ceres).
+/// \param noise_floor   the least noise to assume, mesh unit
+/// \param radius_limit  circles above it count as lines
+Estimate fit_robust(std::span<const Vec3> points, double noise_floor, double radius_limit);
+
+/// Dissertation 4.4.1: least-squares plane, then Powell's method (NLopt's PRAXIS) on centre and radius in that plane.
+/// \param box  bb(w), which gives the initial estimate
+Estimate fit_powell(std::span<const Vec3> points, const Box& box, double radius_limit);
+
+// ---- what the estimators share ----
+
+/// Says why points with these axes cannot determine a circle, or nothing.
+std::string degeneracy(const PrincipalAxes& axes);
+
+/// A usable estimate above the limit becomes a degenerate one.
+void check_radius(Estimate& estimate, double radius_limit);
+
+/// At most `limit` points, evenly spread over the ranking by distance from `center`: the choice depends neither on
+/// the pose nor on the order of the points.
+std::vector<Vec3> representatives(std::span<const Vec3> points, const Vec3& center, std::size_t limit);
+
+/// The circle of least 65 % quantile of squared distances among many starts, and that quantile; infinite where there
+/// is no circle.
+struct Start {
+  double quantile = 0;
+  Circle circle;
+};
+Start search(std::span<const Vec3> points);
+
+/// Standard deviation of one component of the distances whose 65 % quantile is given, all squared lengths.
+double noise_of_quantile(double quantile);
+
+}  // namespace toposcope::circle

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Polylines and the ways to fit them. All work on any scale and in any pose.
+
+#include <span>
+#include <vector>
+
+#include "toposcope/geometry.h"
+#include "toposcope/shapes.h"
+
+namespace toposcope::line_group {
+
+struct Polyline {
+  std::vector<Vec3> vertices;
+  bool closed = false;  ///< the last vertex is joined to the first
+
+  std::size_t segments() const { return vertices.size() - (closed ? 0 : 1); }
+  /// The vertices at the two ends of segment k.
+  std::size_t tail(std::size_t k) const { return k; }
+  std::size_t head(std::size_t k) const { return k + 1 == vertices.size() ? 0 : k + 1; }
+  double length(std::size_t k) const { return (vertices[head(k)] - vertices[tail(k)]).norm(); }
+};
+
+/// The point of a polyline nearest to another.
+struct Nearest {
+  double squared = 0;  ///< distance
+  std::size_t segment = 0;
+  double t = 0;     ///< position along the segment, 0 to 1
+  Vec3 difference;  ///< from the polyline to the point
+};
+Nearest nearest(const Polyline& polyline, const Vec3& point);
+
+/// At most `limit` points, evenly spread over the ranking by distance from `center`: the choice depends neither on
+/// the pose nor on the order of the points.
+std::vector<Vec3> representatives(std::span<const Vec3> points, const Vec3& center, std::size_t limit);
+
+/// Moves the free ends of an open polyline to the extent of the points within `reach` of their segments' lines.
+void trim(Polyline& polyline, std::span<const Vec3> points, double reach);
+
+/// Fixes the order: the longer end segment first; closed: the longest first, then the longer of its neighbours.
+void order(Polyline& polyline);
+
+struct Estimate {
+  Polyline polyline;
+  FitSummary summary;
+};
+
+/// What the fits need of the input, in the points' own unit and frame: about the centroid, spread = 1.
+struct Problem {
+  std::vector<Vec3> points;
+  Box box;
+  double scale = 0;  ///< distance at which a point may lie from the polyline: one or a few mean edges
+  std::size_t segments = 1;
+  bool closed = false;
+};
+
+/// Coarse cost of a polyline, from the points to it and from it to the points: what starts compete by.
+double two_sided_cost(const Problem& problem, const Polyline& polyline);
+
+/// Initial polylines over the box and the points: U, zig-zag, outlines, paths over extreme points,
+/// means of slices and sectors.
+std::vector<Polyline> starts(const Problem& problem);
+
+/// One segment: least quantile of squares over lines through two points, then reweighted total least squares.
+Estimate fit_straight(const Problem& problem, bool robust);
+
+/// Several segments: many starts, Levenberg-Marquardt on the vertices under Geman and McClure's robust distance; parts
+/// of the polyline far from every point cost as much as points far from the polyline.
+Estimate fit_polyline(const Problem& problem);
+
+/// Dissertation 4.4.2: Powell's method on the endpoints from the box start of least cost.
+Estimate fit_powell(const Problem& problem);
+
+/// Fills in all that follows from the polyline and the points.
+/// \param reach  points within it belong to the polyline, mesh unit
+void describe(const Polyline& polyline, const FitInput& input, double reach, FittedShape& shape);
+
+/// Segment between the centroids of the first and the last working set (dissertation 3.4.1, Figure 3.5).
+void describe_centroids(const FitInput& input, FittedShape& shape);
+
+}  // namespace toposcope::line_group

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/run_context.h"
+#include "mesh/mesh.h"
+#include "pipeline/working_sets.h"
+#include "support/meshes.h"
+#include "support/plugins.h"
+#include "toposcope/curvature.h"
+
+namespace toposcope {
+namespace {
+
+const std::vector<std::string> types = {"convex", "concave", "planar"};
+
+WorkingSets classify(const Mesh& mesh, unsigned threads = 2,
+                     const std::vector<std::pair<std::string, std::string>>& options = {}) {
+  RunSettings settings;
+  settings.threads = threads;
+  RunContext context(settings);
+  // classify_mesh refuses sets that are not connected, out of range or of a type that is not provided.
+  return classify_mesh(mesh.view(), *test::worksets("curvature-tree", options), "curvature-tree", types, context);
+}
+
+/// Every set is a whole component of {field >= t}: nothing just outside of it is as high as its lowest vertex.
+TEST(CurvatureTree, SetsAreComponentsOfAThreshold) {
+  const Mesh mesh(test::make_torus(2, 0.6, 60, 30), "torus");
+  const MeshView& view = mesh.view();
+  RunContext context;
+  Curvature curvature = turning_curvature(view, plane_fit_normals(view, context),
+                                          rings_within(view, 0.02 * view.box.diagonal()), context);
+  smooth_over_ring(view, curvature.maximum, 1, context);
+  smooth_over_ring(view, curvature.minimum, 1, context);
+  const WorkingSets sets = classify(mesh);
+  ASSERT_GT(sets.size(), 3u);
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const std::string& type = sets.type_names[sets.types[s]];
+    const auto field = [&](Index v) {
+      const double high = curvature.maximum[v], low = curvature.minimum[v];
+      if (type == "planar") return -std::log(std::max(std::abs(high), std::abs(low)));
+      return std::log(std::max(1e-9, type == "convex" ? high : -low));
+    };
+    double lowest = std::numeric_limits<double>::infinity(), highest_beside = -lowest;
+    for (Index v : sets[s]) lowest = std::min(lowest, field(v));
+    const std::set<Index> inside(sets[s].begin(), sets[s].end());
+    for (Index v : sets[s])
+      for (Index q : view.one_ring(v))
+        if (!inside.contains(q)) highest_beside = std::max(highest_beside, field(q));
+    EXPECT_LE(highest_beside, lowest + 0.02 + 1e-9) << "set " << s;  // the field is read in steps of 0.02
+  }
+}
+
+/// The two rims of a can: some convex set holds each of them and nothing else.
+TEST(CurvatureTree, OffersTheEdgesOfACylinder) {
+  const Mesh mesh(test::make_cylinder(1, 3, 64, 32), "cylinder");
+  const MeshView& view = mesh.view();
+  const WorkingSets sets = classify(mesh);
+  double top = -1e9, bottom = 1e9;
+  for (const Vec3& p : view.positions) {
+    top = std::max(top, p.z());
+    bottom = std::min(bottom, p.z());
+  }
+  for (double level : {top, bottom}) {
+    std::set<Index> rim;
+    for (Index v = 0; v < view.vertex_count(); ++v)
+      if (std::abs(view.positions[v].z() - level) < 1e-9 && view.positions[v].head<2>().norm() > 0.999) rim.insert(v);
+    ASSERT_GT(rim.size(), 32u);
+    bool offered = false;
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      if (sets.type_names[sets.types[s]] != "convex") continue;
+      const auto hit = std::count_if(sets[s].begin(), sets[s].end(), [&](Index v) { return rim.contains(v); });
+      const auto near = std::count_if(sets[s].begin(), sets[s].end(), [&](Index v) {
+        return std::abs(view.positions[v].z() - level) < 0.5 && view.positions[v].head<2>().norm() > 0.7;
+      });
+      offered = offered || (hit == std::ssize(rim) && near == std::ssize(sets[s]));
+    }
+    EXPECT_TRUE(offered) << "level " << level;
+  }
+}
+
+TEST(CurvatureTree, IsTheSameAtAnyThreadCountAndScale) {
+  TriangleSoup soup = test::make_torus(2, 0.6, 60, 30);
+  const Mesh mesh(soup, "torus");
+  for (Vec3& p : soup.positions) p *= 1024;  // a power of two: exact
+  const Mesh scaled(soup, "torus");
+  const WorkingSets one = classify(mesh, 1), two = classify(mesh, 2), large = classify(scaled, 2);
+  EXPECT_EQ(one.vertices, two.vertices);
+  EXPECT_EQ(one.offsets, two.offsets);
+  EXPECT_EQ(one.vertices, large.vertices);
+}
+
+TEST(CurvatureTree, KeepsItsLimits) {
+  const Mesh mesh(test::make_torus(2, 0.6, 60, 30), "torus");
+  const WorkingSets sets = classify(mesh, 2, {{"max_sets", "5"}, {"min_vertices", "10"}, {"max_part", "0.2"}});
+  std::map<Index, int> count;
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    ++count[sets.types[s]];
+    EXPECT_GE(sets[s].size(), 10u);
+    EXPECT_LE(sets[s].size(), mesh.view().vertex_count() / 5);
+  }
+  for (const auto& [type, number] : count) EXPECT_LE(number, 5) << types[type];
+}
+
+}  // namespace
+}  // namespace toposcope
