@@ -107,7 +107,7 @@ Candidate FrameSearch::best_about(const Vec3& axis) {
   return {{best.x() * u + best.y() * v, best.x() * v - best.y() * u, axis}, least * width(axis)};
 }
 
-std::vector<Candidate> FrameSearch::flush_with_faces(std::size_t most) {
+std::vector<Candidate> FrameSearch::flush_with_faces(std::size_t enough, std::size_t most) {
   std::vector<Candidate> candidates;
   for (int i = 0; i < 3; ++i) candidates.push_back(best_about(Vec3::Unit(i)));
   // Width times the area of the shadow is a lower bound of the volume of any box with an axis along the normal.

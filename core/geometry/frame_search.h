@@ -48,8 +48,9 @@ class FrameSearch {
   /// that looks along the axis and one that does not.
   Candidate best_about(const Vec3& axis);
 
-  /// The best frames with an axis along the normal of a face, or along a coordinate axis; least volume first.
-  std::vector<Candidate> flush_with_faces(std::size_t most);
+  /// Frames with an axis along the normal of a face, or along a coordinate axis; least volume first. Those of least
+  /// lower bound are tried: `enough`, and up to `most` as long as they could still be the best.
+  std::vector<Candidate> flush_with_faces(std::size_t enough, std::size_t most);
 
   /// Turns the frame about one of its axes at a time, each time to the least rectangle, always about the axis that
   /// gains most, until nothing is gained.

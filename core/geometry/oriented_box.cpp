@@ -12,11 +12,11 @@ namespace {
 
 using geometry::Axes, geometry::Candidate, geometry::Columns, geometry::FrameSearch;
 
-constexpr std::size_t most_points = 256;       ///< up to here the hull is made of all points
-constexpr std::size_t most_corners = 128;       ///< of a hull that is searched
-constexpr std::size_t most_candidates = 24;     ///< frames flush with a face of the hull
+constexpr std::size_t most_points = 1024;                            ///< up to here the hull is made of all points
+constexpr std::size_t most_corners = 128;                            ///< of a hull that is searched
+constexpr std::size_t enough_candidates = 16, most_candidates = 24;  ///< frames flush with a face of the hull
 constexpr std::size_t descended_corners = 300;  ///< corners of the hull times frames that are improved
-constexpr std::size_t polished_corners = 50;    ///< corners of the hull times frames that are improved further
+constexpr std::size_t polished_corners = 150;   ///< corners of the hull times frames that are improved further
 constexpr double largest_tilt = 0.12, smallest_tilt = 0.01;  ///< radians
 constexpr int most_rounds = 4;                               ///< of adding what lies outside of the box
 constexpr double rounding = 1e-13;                           ///< of lengths, relative to the set's extent
@@ -52,12 +52,12 @@ std::vector<Vec3> extreme_points(std::span<const Vec3> points, Columns& columns,
 Candidate best_frame(FrameSearch& search) {
   // A polyhedron of few corners has few but deep local minima, one of many corners has many shallow ones.
   const std::size_t corners = search.corners().size();
-  std::vector<Candidate> candidates = search.flush_with_faces(most_candidates);
+  std::vector<Candidate> candidates = search.flush_with_faces(enough_candidates, most_candidates);
   candidates.resize(std::min(candidates.size(), std::clamp<std::size_t>(descended_corners / corners, 2, 16)));
   for (Candidate& candidate : candidates) candidate = search.descend(candidate);
   const auto by_volume = [](const Candidate& p, const Candidate& q) { return p.volume < q.volume; };
   std::stable_sort(candidates.begin(), candidates.end(), by_volume);
-  candidates.resize(std::min(candidates.size(), std::clamp<std::size_t>(polished_corners / corners, 1, 8)));
+  candidates.resize(std::min(candidates.size(), std::clamp<std::size_t>(polished_corners / corners, 1, 16)));
   for (Candidate& candidate : candidates) candidate = search.polish(candidate, largest_tilt, smallest_tilt);
   return *std::min_element(candidates.begin(), candidates.end(), by_volume);
 }
@@ -73,8 +73,7 @@ Axes search_axes(std::span<const Vec3> points, Columns& columns, const Vec3& hal
     search = FrameSearch(extreme_points(search.corners(), corners, half_extents), half_extents);
   }
   Candidate best = best_frame(search);
-  double tilt = largest_tilt;
-  for (int round = 0; round < most_rounds; ++round, tilt /= 4) {
+  for (int round = 0; round < most_rounds; ++round) {
     std::vector<Vec3> grown(search.corners().begin(), search.corners().end());
     const auto look_along = [&](const Vec3& axis) {
       const auto [low, high] = columns.extremes(axis);
@@ -84,6 +83,7 @@ Axes search_axes(std::span<const Vec3> points, Columns& columns, const Vec3& hal
     };
     for (const Vec3& axis : best.axes) look_along(axis);
     if (grown.size() == search.corners().size()) break;
+    const double tilt = largest_tilt / (1 << (2 * round));
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         if (i != j)

@@ -34,7 +34,8 @@ struct RelationResult {
   int dof = 1;                 ///< independent components that the residual sums up: 1 an angle from a right angle or a
                                ///< distance beyond a range, 2 an offset between axes or an angle between directions
   double slack = 0;            ///< width of the set of values at which the residual is 0 (a range's max - min)
-  double clutter_density = 0;  ///< density of the residual (or, within the slack, of the value) for unrelated features
+  double clutter_density = 0;  ///< density of the residual for unrelated features, divided by residual^(dof - 1), so
+                               ///< that it does not vanish with it; within the slack, density of the value itself
   double samples = 1;          ///< independent comparisons that the residual summarises (rms over so many)
 };
 

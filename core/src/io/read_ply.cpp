@@ -13,7 +13,11 @@ namespace {
 class AsciiSource {
  public:
   AsciiSource(const std::string& file, std::string_view body, std::size_t line) : text_(file, body, {}, line) {}
-  MeshFilePlace place() const { return text_.place(); }
+  /// Of what comes next, which may be on a later line.
+  MeshFilePlace place() {
+    text_.find_word();
+    return text_.place();
+  }
   double real(PlyScalar) { return text_.need_number("a number"); }
   std::int64_t integer(PlyScalar, std::string_view what) { return text_.need_integer(what); }
   void skip(PlyScalar, std::size_t count) {

@@ -68,6 +68,8 @@ struct Relationship {
   std::string plugin;           ///< relation type = plugin id
   std::vector<Index> features;  ///< by index into WorkingModel::features
   std::vector<std::pair<std::string, Expression>> arguments;
+  /// In the residual's unit (deg or length), over bb(O); without it the relation's own option decides.
+  std::optional<Expression> tolerance;
   SourceLocation where;
 };
 

@@ -25,6 +25,7 @@ std::string arguments_in_words(const Relationship& relationship) {
   std::string words;
   for (const auto& [name, value] : relationship.arguments)
     words += (words.empty() ? "" : ", ") + name + " " + value.text();
+  if (relationship.tolerance) words += (words.empty() ? "" : ", ") + ("tolerance " + relationship.tolerance->text());
   return words;
 }
 

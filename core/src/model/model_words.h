@@ -16,7 +16,7 @@ std::string shape_in_words(const ShapeSpec& shape);
 /// "bb(w).c/2 < radius < bb(O).a"
 std::string range_in_words(const Range& range);
 
-/// "min 0, max bb(O).c/4"; "" without arguments
+/// "min 0, max bb(O).c/4, tolerance 20"; "" without any
 std::string arguments_in_words(const Relationship& relationship);
 
 /// "convex + concave"

@@ -50,6 +50,18 @@ void read_argument(const YAML::Node& name, const YAML::Node& node, const PluginM
   relationship.arguments.emplace_back(name.Scalar(), *value);
 }
 
+/// `tolerance`, which every relationship may set.
+void read_tolerance(const YAML::Node& node, const PluginManifest* relation, const std::string& owner,
+                    const ModelReading& reading, Relationship& relationship) {
+  reading.attempt(node, [&] { relationship.tolerance = Expression::parse(node.Scalar(), reading.at(node)); });
+  if (!relationship.tolerance) return;
+  const std::string minimum = "0.000001";  // of either unit: a tolerance of 0 is never met
+  const std::string unit = relation ? relation->unit : relationship.tolerance->dimension() == 1 ? "length" : "deg";
+  const OptionRow row{"tolerance", OptionType::real, unit, "", relationship.tolerance->uses_object() ? "" : minimum, "",
+                      "largest residual at which the relationship counts as satisfied"};
+  check_argument(row, *relationship.tolerance, node, owner, reading);
+}
+
 void read_scope(const YAML::Node& node, const std::vector<ModelFeature>& features, const ModelReading& reading,
                 Relationship& relationship) {
   for (const YAML::Node& name : node) {
@@ -88,6 +100,10 @@ Relationship read_relationship(const YAML::Node& name, const YAML::Node& node,
   for (const auto& argument : node) {
     const std::string& key = argument.first.Scalar();
     if (key == "features" || key == "type") continue;
+    if (key == "tolerance") {
+      read_tolerance(argument.second, relation, owner, reading, relationship);
+      continue;
+    }
     read_argument(argument.first, argument.second, relation, owner, reading, relationship);
   }
   if (relation)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/constructed_features.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
@@ -152,18 +153,40 @@ struct JobResult {
 };
 
 /// The points of a group of working sets, one set after the other.
-void gather(const MeshView& mesh, const WorkingSets& sets, std::span<const Index> group, std::vector<Vec3>& points,
-            std::vector<Index>& offsets) {
-  points.clear();
-  offsets.assign(1, 0);
-  for (Index s : group) {
-    for (Index v : sets[s]) points.push_back(mesh.positions[v]);
-    offsets.push_back(static_cast<Index>(points.size()));
+struct GroupPoints {
+  std::vector<Vec3> points;
+  std::vector<double> areas;
+  std::vector<Index> offsets;
+
+  void gather(const MeshView& mesh, std::span<const double> vertex_areas, const WorkingSets& sets,
+              std::span<const Index> group) {
+    points.clear();
+    areas.clear();
+    offsets.assign(1, 0);
+    for (Index s : group) {
+      for (Index v : sets[s]) {
+        points.push_back(mesh.positions[v]);
+        areas.push_back(vertex_areas[v]);
+      }
+      offsets.push_back(static_cast<Index>(points.size()));
+    }
   }
+};
+
+/// A third of the triangles around each vertex.
+std::vector<double> areas_of_vertices(const MeshView& mesh) {
+  std::vector<double> areas(mesh.vertex_count(), 0);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const double third =
+        (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]).norm() / 6;
+    for (Index v : {a, b, c}) areas[v] += third;
+  }
+  return areas;
 }
 
 JobResult run_job(const FitJob& job, const GroupEnumerator& groups, const MeshView& mesh, const Model& model,
-                  const WorkingSets& sets, std::span<const Box> set_boxes, Context& context) {
+                  const WorkingSets& sets, std::span<const double> vertex_areas, std::span<const Box> set_boxes,
+                  Context& context) {
   JobResult result;
   result.shapes.resize(groups.size());
   result.boxes.resize(groups.size());
@@ -172,14 +195,13 @@ JobResult run_job(const FitJob& job, const GroupEnumerator& groups, const MeshVi
                            return uses_working_set_box(model.features[f]);
                          });
   context.parallel_for(groups.size(), grain, [&](std::size_t first, std::size_t last) {
-    std::vector<Vec3> points;
-    std::vector<Index> offsets;
+    GroupPoints at;
     for (std::size_t g = first; g < last && !context.cancelled(); ++g) {
       const std::span<const Index> group = groups[g];
-      gather(mesh, sets, group, points, offsets);
+      at.gather(mesh, vertex_areas, sets, group);
       result.boxes[g] = group.size() == 1 ? set_boxes[group[0]]
-                        : exact_box       ? oriented_box(points)
-                                          : principal_box(points);
+                        : exact_box       ? oriented_box(at.points)
+                                          : principal_box(at.points);
       const ExpressionBoxes boxes{mesh.box, result.boxes[g]};
       bool wanted = false;
       for (std::size_t i = 0; i < job.features.size(); ++i) {
@@ -188,7 +210,7 @@ JobResult run_job(const FitJob& job, const GroupEnumerator& groups, const MeshVi
         wanted = wanted || result.fates[i][g] == Fate::fitted;
       }
       if (!wanted) continue;
-      const FitInput input{points, offsets, result.boxes[g], mesh.box, mesh.mean_edge};
+      const FitInput input{at.points, at.areas, at.offsets, result.boxes[g], mesh.box, mesh.mean_edge};
       result.shapes[g] = job.fitter->fit(input, Options(*job.arguments), context);
       for (std::size_t i = 0; i < job.features.size(); ++i)
         if (Fate& fate = result.fates[i][g]; fate == Fate::fitted)
@@ -217,11 +239,12 @@ double fit_error_sd(const ModelFeature& feature, const MeshView& mesh, const Box
 
 /// Moves the best candidates of each feature of a job to `out`.
 void select(const FitJob& job, const GroupEnumerator& groups, const JobResult& result, const MeshView& mesh,
-            const Model& model, const WorkingSets& sets, const Stations& stations, ConstructedFeatures& out) {
+            const Model& model, const WorkingSets& sets, std::span<const double> vertex_areas,
+            const Stations& stations, ConstructedFeatures& out) {
   constexpr Index unmade = std::numeric_limits<Index>::max();
   std::vector<Index> made(groups.size(), unmade);  // into out.all
   std::vector<std::pair<double, Index>> ranked;
-  std::vector<Index> offsets;
+  GroupPoints at;
   for (std::size_t i = 0; i < job.features.size(); ++i) {
     const ModelFeature& feature = model.features[job.features[i]];
     FeatureCandidates& candidates = out.of_feature[job.features[i]];
@@ -244,7 +267,8 @@ void select(const FitJob& job, const GroupEnumerator& groups, const JobResult& r
         ConstructedFeature& constructed = out.all.emplace_back();
         constructed.sets.assign(groups[g].begin(), groups[g].end());
         constructed.shape = result.shapes[g];
-        gather(mesh, sets, groups[g], constructed.points, offsets);
+        at.gather(mesh, vertex_areas, sets, groups[g]);
+        constructed.points = at.points;
         constructed.box = groups.arity() == 1 ? result.boxes[g] : oriented_box(constructed.points);
       }
       candidates.constructed.push_back(made[g]);
@@ -267,14 +291,15 @@ ConstructedFeatures construct_features(const MeshView& mesh, const Model& model,
     }
   });
 
+  const std::vector<double> vertex_areas = areas_of_vertices(mesh);
   ConstructedFeatures features;
   features.of_feature.resize(model.features.size());
   const std::vector<FitJob> jobs = fit_jobs(model, stations);
   for (std::size_t j = 0; j < jobs.size(); ++j) {
     const GroupEnumerator groups(*jobs[j].feature, sets, overlap);
     const JobResult result = guard(jobs[j].feature->shape.plugin,
-                             [&] { return run_job(jobs[j], groups, mesh, model, sets, boxes, context); });
-    select(jobs[j], groups, result, mesh, model, sets, stations, features);
+                             [&] { return run_job(jobs[j], groups, mesh, model, sets, vertex_areas, boxes, context); });
+    select(jobs[j], groups, result, mesh, model, sets, vertex_areas, stations, features);
     context.progress(static_cast<double>(j + 1) / static_cast<double>(jobs.size()));
   }
   return features;

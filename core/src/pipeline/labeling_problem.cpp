@@ -26,14 +26,30 @@ std::vector<OptionValue> relation_arguments(const MeshView& mesh, const Relation
   return values;
 }
 
-RelationResult test(const MeshView& mesh, const RelationTester& tester, const std::vector<OptionValue>& arguments,
-                    std::span<const ConstructedFeature* const> features, std::vector<RelationOperand>& operands,
-                    Context& context) {
-  operands.clear();
-  for (const ConstructedFeature* feature : features)
-    operands.push_back({&feature->shape, feature->points, feature->box});
-  return tester.test({operands, mesh.box, mesh.mean_edge}, Options(arguments), context);
-}
+/// A relationship made ready for one mesh: its expressions evaluated.
+struct BoundRelation {
+  const RelationTester* tester;
+  std::vector<OptionValue> arguments;
+  std::optional<double> tolerance;  ///< rad or mesh unit
+
+  BoundRelation(const MeshView& mesh, const Model& model, Index relationship, const Stations& stations)
+      : tester(stations.relations.at(model.relationships[relationship].plugin).get()),
+        arguments(relation_arguments(mesh, model.relationships[relationship],
+                                     stations.relation_defaults[relationship])) {
+    if (const auto& given = model.relationships[relationship].tolerance)
+      tolerance = given->evaluate({mesh.box, Box{}}) * (stations.relation_units[relationship] == "deg" ? pi / 180 : 1);
+  }
+
+  RelationResult test(const MeshView& mesh, std::span<const ConstructedFeature* const> features,
+                      std::vector<RelationOperand>& operands, Context& context) const {
+    operands.clear();
+    for (const ConstructedFeature* feature : features)
+      operands.push_back({&feature->shape, feature->points, feature->box});
+    RelationResult result = tester->test({operands, mesh.box, mesh.mean_edge}, Options(arguments), context);
+    if (tolerance) result.tolerance = *tolerance;
+    return result;
+  }
+};
 
 LabelingConstraint empty_constraint(const Relationship& relationship, const LabelingProblem& problem) {
   LabelingConstraint constraint;
@@ -53,14 +69,12 @@ LabelingConstraint empty_constraint(const Relationship& relationship, const Labe
 }
 
 /// Fills a relationship's tables: one row of work per combination of all but the last variable.
-void fill_constraint(LabelingConstraint& constraint, const MeshView& mesh, const Relationship& relationship,
+void fill_constraint(LabelingConstraint& constraint, const MeshView& mesh, const BoundRelation& relation,
                      const LabelingProblem& problem, const ConstructedFeatures& features,
-                     const std::vector<OptionValue>& defaults, const Stations& stations, Context& context) {
+                     const ProbabilityModel& probability, Context& context) {
   const std::size_t arity = constraint.scope.size();
   std::vector<std::size_t> domain;
   for (Index v : constraint.scope) domain.push_back(problem.variables[v].domain());
-  const RelationTester& tester = *stations.relations.at(relationship.plugin);
-  const std::vector<OptionValue> arguments = relation_arguments(mesh, relationship, defaults);
   const std::size_t row = domain.back();
   context.parallel_for(constraint.costs.size() / row, grain, [&](std::size_t first, std::size_t last) {
     std::vector<Index> ids(arity);
@@ -85,8 +99,8 @@ void fill_constraint(LabelingConstraint& constraint, const MeshView& mesh, const
         constraint.violations[entry] = std::numeric_limits<float>::infinity();
         continue;
       }
-      const RelationResult result = test(mesh, tester, arguments, given, operands, context);
-      constraint.costs[entry] = static_cast<float>(-relation_evidence(stations.probability, result));
+      const RelationResult result = relation.test(mesh, given, operands, context);
+      constraint.costs[entry] = static_cast<float>(-relation_evidence(probability, result));
       constraint.violations[entry] = static_cast<float>(violation(result));
     }
   });
@@ -97,13 +111,10 @@ void fill_constraint(LabelingConstraint& constraint, const MeshView& mesh, const
 RelationResult test_relationship(const MeshView& mesh, const Model& model, Index relationship,
                                  std::span<const ConstructedFeature* const> features, const Stations& stations,
                                  Context& context) {
-  const Relationship& of_model = model.relationships[relationship];
+  const BoundRelation relation(mesh, model, relationship, stations);
   std::vector<RelationOperand> operands;
-  return guard(of_model.plugin, [&] {
-    return test(mesh, *stations.relations.at(of_model.plugin),
-                relation_arguments(mesh, of_model, stations.relation_defaults[relationship]), features, operands,
-                context);
-  });
+  return guard(model.relationships[relationship].plugin,
+               [&] { return relation.test(mesh, features, operands, context); });
 }
 
 LabelingProblem build_problem(const MeshView& mesh, const Model& model, const ConstructedFeatures& features,
@@ -136,9 +147,9 @@ LabelingProblem build_problem(const MeshView& mesh, const Model& model, const Co
   for (Index r = 0; r < model.relationships.size(); ++r) {
     const Relationship& relationship = model.relationships[r];
     LabelingConstraint& constraint = problem.constraints.emplace_back(empty_constraint(relationship, problem));
+    const BoundRelation relation(mesh, model, r, stations);
     guard(relationship.plugin, [&] {
-      fill_constraint(constraint, mesh, relationship, problem, features, stations.relation_defaults[r], stations,
-                      context);
+      fill_constraint(constraint, mesh, relation, problem, features, stations.probability, context);
     });
     context.progress(static_cast<double>(r + 1) / static_cast<double>(model.relationships.size()));
   }

@@ -11,11 +11,12 @@ namespace {
 /// A tolerance is where a user stops believing: so many standard deviations.
 constexpr double tolerance_in_sd = 2.5;
 
-/// log density of a residual r >= 0 that sums up `dof` normal components of standard deviation `sd`.
+/// log density of a residual r >= 0 that sums up `dof` normal components of standard deviation `sd`, divided by
+/// r^(dof - 1): the factor that it shares with the density of unrelated features.
 double log_chi_density(double r, double sd, int dof) {
   const double x = r / sd;
   const double k = dof;
-  return (1 - k / 2) * std::log(2.0) - std::lgamma(k / 2) + (k - 1) * std::log(x) - x * x / 2 - std::log(sd);
+  return (1 - k / 2) * std::log(2.0) - std::lgamma(k / 2) - x * x / 2 - k * std::log(sd);
 }
 
 /// log of (1 - exception) times the density under "holds" over that of unrelated features.
@@ -28,9 +29,7 @@ double log_holds(const ProbabilityModel& model, const RelationResult& result) {
     const double x = result.residual / sd;
     ratio = -x * x / 2 - std::log(width) - std::log(result.clutter_density);
   } else {
-    // At 0 both densities vanish alike for dof > 1: their ratio is taken just beside it.
-    const double r = std::max(result.residual, 1e-3 * sd);
-    ratio = log_chi_density(r, sd, result.dof) - std::log(result.clutter_density);
+    ratio = log_chi_density(result.residual, sd, result.dof) - std::log(result.clutter_density);
   }
   const double samples = std::max(1.0, result.samples / model.sample_spacing);
   return std::log1p(-model.relation_exception) + samples * ratio;

@@ -31,6 +31,7 @@ std::multiset<std::string> relationships_under(const Model& model, const std::ve
     std::string text = relationship.plugin;
     for (Index f : features) text += "|" + std::to_string(f);
     for (const auto& [name, value] : relationship.arguments) text += "|" + name + "=" + value.text();
+    if (relationship.tolerance) text += "|" + relationship.tolerance->text();
     all.insert(std::move(text));
   }
   return all;

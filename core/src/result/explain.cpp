@@ -65,6 +65,7 @@ class Explainer {
     report.probability = probability(v, value);
     if (report.present) {
       const ConstructedFeature& made = constructed(v, value);
+      report.evidence = -cost_over_missing(best_, v);
       report.shape = made.shape;
       report.working_sets = made.sets;
       report.triangles = triangles_of(made);
@@ -144,10 +145,7 @@ class Explainer {
         ++in_conflict;
         continue;
       }
-      double cost = variable.costs[value] - variable.costs[0];
-      for (const LabelingConstraint& constraint : posed_.problem.constraints)
-        if (std::find(constraint.scope.begin(), constraint.scope.end(), v) != constraint.scope.end())
-          cost += static_cast<double>(constraint.costs[table_entry(posed_.problem, constraint, trial)]);
+      const double cost = cost_over_missing(trial, v);
       if (cost < report.nearest_cost) {
         report.nearest_cost = cost;
         nearest = value;
@@ -170,6 +168,16 @@ class Explainer {
                         ? "the nearest candidate does not stand out from the rest of the mesh"
                         : "the nearest candidate breaks " + std::to_string(report.failed.size()) + " relationship(s)";
     return report;
+  }
+
+  /// What labelling variable v adds to the cost over leaving it missing, all else as it is.
+  double cost_over_missing(const Labeling& labeling, Index v) const {
+    const LabelingVariable& variable = posed_.problem.variables[v];
+    double cost = variable.costs[labeling.values[v]] - variable.costs[0];
+    for (const LabelingConstraint& constraint : posed_.problem.constraints)
+      if (std::find(constraint.scope.begin(), constraint.scope.end(), v) != constraint.scope.end())
+        cost += static_cast<double>(constraint.costs[table_entry(posed_.problem, constraint, labeling)]);
+    return cost;
   }
 
   bool conflicts(const Labeling& labeling, Index v) const {

@@ -91,6 +91,7 @@ Json feature(const FeatureReport& report) {
   Json object = {{"present", report.present}};
   if (report.present) {
     object["probability"] = number(report.probability);
+    object["evidence"] = number(report.evidence);
     object["shape"] = report.shape_plugin;
     object["parameters"] = parameters(report.shape);
     object["measures"] = measures(report.shape);

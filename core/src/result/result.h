@@ -35,6 +35,7 @@ struct FeatureReport {
   std::string name, shape_plugin;
   bool present = false;
   double probability = 0;  ///< present: that this shape (to within a mean edge) is the feature; missing: that it is missing
+  double evidence = 0;     ///< nats by which labelling it beats leaving it missing, all else as it is
   FittedShape shape;
   std::vector<Index> working_sets;
   std::vector<Index> triangles;  ///< of the input mesh

@@ -21,13 +21,13 @@ struct Settings {
 // One run over one problem: the best labelling, then the k best, then the sums.
 class Run {
  public:
-  Run(const Settings& settings, const LabelingRequest& request, const Tables& tables, Context& context)
+  Run(const Settings& settings, const LabelingRequest& request, const Tables& tables, Stop& stop, Context& context)
       : settings_(settings),
         request_(request),
         tables_(tables),
         context_(context),
-        stop_(request.time_limit_s, context),
-        search_(tables, stop_) {}
+        stop_(stop),
+        search_(tables, stop) {}
 
   LabelingOutcome outcome() {
     find_best();
@@ -180,7 +180,7 @@ class Run {
   const LabelingRequest& request_;
   const Tables& tables_;
   Context& context_;
-  Stop stop_;
+  Stop& stop_;
   DepthFirst search_;
   Rules rules_;
   LabelingOutcome outcome_;
@@ -197,6 +197,7 @@ class TreeSearch final : public Labeler {
 
   LabelingOutcome solve(const LabelingProblem& problem, const LabelingRequest& request,
                         Context& context) const override {
+    Stop stop(request.time_limit_s, context);  // the making of the tables counts too
     check(problem);
     if (problem.variables.empty())
       return {{Labeling{}}, 0, true, 0, {}, 0, "a problem without variables has one labelling"};
@@ -204,7 +205,7 @@ class TreeSearch final : public Labeler {
     std::string order = "tree-search: features enter in the order";
     for (const Index variable : tables.order) order += " " + problem.variables[variable].name;
     context.log(LogLevel::debug, order);
-    return Run(settings_, request, tables, context).outcome();
+    return Run(settings_, request, tables, stop, context).outcome();
   }
 
  private:

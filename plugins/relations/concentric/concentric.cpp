@@ -49,12 +49,9 @@ class Concentric final : public RelationTester {
     result.sd = std::sqrt(first.centroid_sd * first.centroid_sd + second.centroid_sd * second.centroid_sd +
                           (along * along / 4 + radius * radius / 2) * direction_sd * direction_sd);
     result.dof = 2;
-    // An unrelated axis crosses the plane of the circle anywhere in a disk of radius a/2. The density vanishes where
-    // the relation holds exactly: taken no nearer than a thousandth of the scale, where the kernel takes the density
-    // under "holds".
+    // An unrelated axis crosses the plane of the circle anywhere in a disk of radius a/2: density 2 r / R^2.
     const double disk = input.object_box.a() / 2;
-    const double floor = 1e-3 * std::hypot(result.tolerance / 2.5, result.sd);
-    result.clutter_density = 2 * std::max(result.residual, floor) / (disk * disk);
+    result.clutter_density = 2 / (disk * disk);
     return result;
   }
 

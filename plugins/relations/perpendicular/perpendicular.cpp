@@ -38,9 +38,7 @@ class Perpendicular final : public RelationTester {
       // A line is perpendicular to a plane when it is parallel to the plane's normal.
       result.residual = angle;
       result.dof = 2;
-      // sin(angle) vanishes where the relation holds exactly: taken no nearer than a thousandth of the scale, where
-      // the kernel takes the density under "holds".
-      result.clutter_density = std::sin(std::max(angle, 1e-3 * std::hypot(tolerance_ / 2.5, result.sd)));
+      result.clutter_density = angle > 0 ? std::sin(angle) / angle : 1;
     }
     return result;
   }

@@ -107,7 +107,9 @@ constexpr OptionSpec arguments[] = {
      "one segment ends where the points end, or at the centroids of the first and the last working set"},
 };
 constexpr ProvidedName measures[] = {{"length_#", 1, "length of segment #, from 1"},
-                                     {"length", 1, "sum of the segments' lengths"}};
+                                     {"length", 1, "sum of the segments' lengths"},
+                                     {"end_size", 1, "ends: centroids: the larger end's extent, that of a uniform bar"},
+                                     {"end_depth", 0, "ends: centroids: least of the ends' thickness over extent"}};
 
 }  // namespace
 }  // namespace toposcope::line_group

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "polyline.h"
 
@@ -175,8 +176,19 @@ void describe_centroids(const FitInput& input, FittedShape& shape) {
   const auto set = [&](std::size_t k) {
     return input.points.subspan(input.set_offsets[k], input.set_offsets[k + 1] - input.set_offsets[k]);
   };
+  const auto area_of = [&](std::size_t k) {
+    return std::accumulate(input.areas.begin() + input.set_offsets[k], input.areas.begin() + input.set_offsets[k + 1],
+                           0.0);
+  };
+  // The centroid of the surface, whatever the density of its vertices.
+  const auto centroid_of = [&](std::size_t k) {
+    Vec3 moment = Vec3::Zero();
+    for (Index i = input.set_offsets[k]; i < input.set_offsets[k + 1]; ++i)
+      moment += input.areas[i] * (input.points[i] - input.points[input.set_offsets[k]]);
+    return Vec3(input.points[input.set_offsets[k]] + moment / area_of(k));
+  };
   const PrincipalAxes first = principal_axes(set(0)), last = principal_axes(set(sets - 1));
-  const Polyline polyline{{first.centroid, last.centroid}, false};
+  const Polyline polyline{{centroid_of(0), centroid_of(sets - 1)}, false};
   if (!(polyline.length(0) > 1e-9 * input.box.diagonal())) {
     shape.summary = {Termination::degenerate, "the centroids of the first and the last working set coincide", 0, 0, 0};
     return;
@@ -187,7 +199,7 @@ void describe_centroids(const FitInput& input, FittedShape& shape) {
   shape.summary = {Termination::closed_form, "centroids of the working sets", 0, squares / 2, squares / 2};
   shape.coverage = 1;
   shape.explained = shape.unexplained = 0;
-  for (std::size_t k = 0; k < sets; ++k) shape.explained += std::sqrt(static_cast<double>(set(k).size()));
+  for (std::size_t k = 0; k < sets; ++k) shape.explained += std::sqrt(area_of(k)) / input.mean_edge;
 
   // A patch of n vertices counts as sqrt(n) samples of its own spread: where it ends is uncertain by whole rows.
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(6, 6);
@@ -200,6 +212,14 @@ void describe_centroids(const FitInput& input, FittedShape& shape) {
           ends[end]->variance[axis] / std::sqrt(static_cast<double>(sizes[end])) * direction * direction.transpose();
     }
   set_shape(polyline, covariance, input.mean_edge, shape);
+  // Along the principal axes: the ends are small, and there are many pairs of them.
+  double size = 0, depth = 1;
+  for (const PrincipalAxes* end : ends) {
+    size = std::max(size, std::sqrt(12 * end->variance[0]));
+    depth = std::min(depth, std::sqrt(end->variance[2] / end->variance[0]));
+  }
+  shape.measures.push_back({"end_size", size, input.mean_edge});
+  shape.measures.push_back({"end_depth", depth, 0});
 }
 
 }  // namespace toposcope::line_group

@@ -92,12 +92,18 @@ Plane reweighted_fit(std::span<const Vec3> points, double spread, double noise_f
 void describe(Plane plane, const FitInput& input, double reach, FittedShape& shape) {
   std::vector<Vec3> inliers;
   inliers.reserve(input.points.size());
-  double squares = 0;
-  for (const Vec3& point : input.points) {
-    const double h = height(plane, point);
-    if (std::abs(h) > reach) continue;
+  double squares = 0, area = 0, area_left_out = 0;
+  Vec3 moment = Vec3::Zero();
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    const double h = height(plane, input.points[i]);
+    if (std::abs(h) > reach) {
+      area_left_out += input.areas[i];
+      continue;
+    }
     squares += h * h;
-    inliers.push_back(point - h * plane.normal);
+    area += input.areas[i];
+    inliers.push_back(input.points[i] - h * plane.normal);
+    moment += input.areas[i] * (inliers.back() - plane.point);
   }
   const PrincipalAxes axes = inliers.size() < 3 ? PrincipalAxes{} : principal_axes(inliers);
   if (inliers.size() < 3 || !(axes.variance[1] > 1e-12 * axes.variance[0])) {
@@ -106,13 +112,13 @@ void describe(Plane plane, const FitInput& input, double reach, FittedShape& sha
                             " points lie near the plane: 3 off a line are needed (option 'scale')";
     return;
   }
-  plane.point = axes.centroid;
+  plane.point = area > 0 ? Vec3(plane.point + moment / area) : axes.centroid;
   const double n = static_cast<double>(inliers.size()), edge = input.mean_edge;
-  const double point_area = std::sqrt(3.0) / 2 * edge * edge;  // of a vertex of equilateral triangles
-  const double samples = point_area * n / (edge * edge);       // one per square of a mean edge
+  // One per square of a mean edge, but no more than there are points to tell.
+  const double samples = std::clamp(area / (edge * edge), 1.0, n);
   shape.rms = std::sqrt(squares / n);
-  shape.explained = std::sqrt(point_area * n) / edge;
-  shape.unexplained = std::sqrt(point_area * (static_cast<double>(input.points.size()) - n)) / edge;
+  shape.explained = std::sqrt(area) / edge;
+  shape.unexplained = std::sqrt(area_left_out) / edge;
   shape.coverage = 1;
 
   // The regression of heights on the two principal axes in the plane: offset and tilts are uncorrelated.
@@ -130,7 +136,6 @@ void describe(Plane plane, const FitInput& input, double reach, FittedShape& sha
   const auto list = [](const Vec3& x) { return std::vector<double>{x.x(), x.y(), x.z()}; };
   shape.parameters = {{"point", 3, list(plane.point)}, {"normal", 3, list(plane.normal)}};
   const Box box = oriented_box(inliers);
-  const double area = point_area * n;
   // The patch ends somewhere within an edge of its last vertices.
   shape.measures = {{"extent", box.a(), edge}, {"area", area, edge * std::sqrt(area)}};
   shape.orientation = Orientation::plane_like;

@@ -6,6 +6,7 @@
 
 #include <clocale>
 #include <cmath>
+#include <locale>
 
 #include "base/errors.h"
 
@@ -95,14 +96,19 @@ TEST(Expression, OnlyTheLiteralZeroFitsEveryDimension) {
   EXPECT_EQ(Expression::parse("max(bb(O).a*bb(O).b, 0)", start).dimension(), 2);
 }
 
+struct DecimalComma : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+};
+
 TEST(Expression, ReadsTheSameInACommaDecimalLocale) {
-  const std::string before = std::setlocale(LC_ALL, nullptr);
-  bool found = false;
-  for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8"})
-    found |= std::setlocale(LC_ALL, name) != nullptr;
-  const double read = value("1.5");
-  std::setlocale(LC_ALL, before.c_str());
-  if (!found) GTEST_SKIP() << "no locale with a decimal comma is installed";
+  // Streams follow the first of these, strtod the second (where such a locale is installed).
+  const std::locale before = std::locale::global(std::locale(std::locale(), new DecimalComma));
+  const std::string c_before = std::setlocale(LC_ALL, nullptr);
+  for (const char* name : {"fr_FR.UTF-8", "de_DE.UTF-8"}) std::setlocale(LC_ALL, name);
+  double read = 0;
+  EXPECT_NO_THROW(read = value("1.5"));
+  std::setlocale(LC_ALL, c_before.c_str());
+  std::locale::global(before);
   EXPECT_EQ(read, 1.5);
 }
 

@@ -288,6 +288,9 @@ TEST_F(ReadModel, ErrorsThatPluginsTell) {
       {"max: bb(O).c/4", "max: bb(w).c", "30:64", "names bb(w)"},
       {"type: concentric", "type: angle, angle: 270", "29:51", "from 0 to 180"},
       {"type: concentric", "type: angle, angle: bb(O).a", "29:51", "'angle' is a number"},
+      {"type: concentric", "type: concentric, tolerance: bb(O).a", "29:60", "'tolerance' is a number"},
+      {"type: concentric", "type: concentric, tolerance: 0", "29:60", "tolerance"},
+      {"type: concentric", "type: concentric, tolerance: 1 +", "29:63", "the expression ends"},
       {"type: concentric", "type: angle, signed: 3", "29:52", "write true or false"},
   };
   for (const Change& change : changes) {
@@ -297,6 +300,16 @@ TEST_F(ReadModel, ErrorsThatPluginsTell) {
   }
   EXPECT_EQ(error_with("type: concentric", "type: angle, angle: 30 + 60, signed: true"), "no error");
   EXPECT_EQ(error_with("max: bb(O).c/4", "min: 0, max: bb(O).c/4"), "no error") << "0 fits a length";
+}
+
+TEST_F(ReadModel, EveryRelationshipMaySetItsTolerance) {
+  std::string text = sound;
+  text.replace(text.find("type: concentric"), 16, "type: concentric, tolerance: 40/2");
+  const Model model = model_from_text(text, "m.yaml", &catalog_);
+  ASSERT_TRUE(model.relationships[0].tolerance);
+  EXPECT_EQ(model.relationships[0].tolerance->evaluate({}), 20);
+  EXPECT_TRUE(model.relationships[0].arguments.empty()) << "it is no argument of the plugin";
+  EXPECT_FALSE(model.relationships[1].tolerance);
 }
 
 TEST_F(ReadModel, TellsAllErrorsInTheOrderOfTheFile) {

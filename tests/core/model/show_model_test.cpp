@@ -29,7 +29,7 @@ features:
   base: {realises: cup, worksets: [planar], shape: plane}
 relationships:
   r1: {features: [top, side], type: parallel}
-  r2: {features: [top, side, base], type: spread, max: bb(O).c/4}
+  r2: {features: [top, side, base], type: spread, max: bb(O).c/4, tolerance: 20}
 classes:
   plain: [r1]
 )yaml";
@@ -48,7 +48,7 @@ TEST(ShowModel, TextTellsEveryLinkWithItsInverse) {
         "                 up tip\n", "                 down rim\n",
         "  top   line-group (segments 2) on convex + concave, detectability 0.5, realises rim\n"
         "        0 < length < bb(O).a\n        fit error < bb(O).a/9\n",
-        "  r2  spread(top, side, base): max bb(O).c/4\n", "  plain  r1\n"})
+        "  r2  spread(top, side, base): max bb(O).c/4, tolerance 20\n", "  plain  r1\n"})
     EXPECT_THAT(text, HasSubstr(line));
 }
 

@@ -51,7 +51,7 @@ TEST(RelationEvidence, HoldsIsADensity) {
     double integral = 0;
     const double step = 1e-4;
     for (double r = step / 2; r < 2; r += step)
-      integral += step * std::exp(relation_evidence(no_exception, relation(r, dof, 1.0)));
+      integral += step * std::pow(r, dof - 1) * std::exp(relation_evidence(no_exception, relation(r, dof, 1.0)));
     EXPECT_NEAR(integral, 1, 1e-3) << dof;
   }
 }

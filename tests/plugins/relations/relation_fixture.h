@@ -99,7 +99,7 @@ inline void expect_invariant(const RelationTester& relation, const Feature& firs
     EXPECT_NEAR(there.residual / unit, here.residual, tolerance) << "seed " << seed;
     EXPECT_NEAR(there.tolerance / unit, here.tolerance, tolerance);
     EXPECT_NEAR(there.sd / unit, here.sd, tolerance);
-    EXPECT_NEAR(there.clutter_density * unit, here.clutter_density, tolerance);
+    EXPECT_NEAR(there.clutter_density * std::pow(unit, here.dof), here.clutter_density, tolerance);
   }
 }
 
@@ -130,10 +130,10 @@ inline void expect_density_of_random_directions(const RelationTester& relation, 
   }
   std::sort(meridian.begin(), meridian.end(),
             [](const RelationResult& a, const RelationResult& b) { return a.residual < b.residual; });
+  const auto density = [](const RelationResult& r) { return r.clutter_density * std::pow(r.residual, r.dof - 1); };
   double integral = 0;
   for (std::size_t i = 1; i < meridian.size(); ++i) {
-    integral += (meridian[i].residual - meridian[i - 1].residual) *
-                (meridian[i].clutter_density + meridian[i - 1].clutter_density) / 2;
+    integral += (meridian[i].residual - meridian[i - 1].residual) * (density(meridian[i]) + density(meridian[i - 1])) / 2;
     const auto below = std::lower_bound(residuals.begin(), residuals.end(), meridian[i].residual);
     EXPECT_NEAR(static_cast<double>(below - residuals.begin()) / count, integral, 2e-3);
   }

@@ -46,7 +46,9 @@ inline FittedShape fit(const ShapeFitter& fitter, const PointSets& sets, const O
   std::vector<Index> offsets = sets.offsets;
   if (offsets.empty()) offsets = {0, static_cast<Index>(sets.points.size())};
   const Box box = sets.points.empty() ? Box{} : oriented_box(sets.points);
-  return fitter.fit({sets.points, offsets, box, box, sets.mean_edge}, arguments, context());
+  // Each point stands for a square of a mean edge.
+  const std::vector<double> areas(sets.points.size(), sets.mean_edge * sets.mean_edge);
+  return fitter.fit({sets.points, areas, offsets, box, box, sets.mean_edge}, arguments, context());
 }
 
 inline PointSets transformed(PointSets sets, const Eigen::Matrix3d& rotation, double scale, const Vec3& shift) {

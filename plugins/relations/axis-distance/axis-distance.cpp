@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far a feature lies beside the axis of another: a handle beside the axis of its cup.
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "toposcope/plugin.h"
+
+namespace {
+
+using namespace toposcope;
+
+class AxisDistance final : public RelationTester {
+ public:
+  explicit AxisDistance(const Options& options) : tolerance_rel_(options.real("tolerance_rel")) {}
+
+  RelationResult test(const RelationInput& input, const Options& arguments, Context& /*context*/) const override {
+    const FittedShape& round = *input.features[0].shape;
+    const FittedShape& beside = *input.features[1].shape;
+    const double low = arguments.real("min");
+    const double high = arguments.real("max");
+    if (low > high)
+      throw std::invalid_argument("axis-distance: min = " + std::to_string(low) + " is greater than max = " +
+                                  std::to_string(high) + ", no distance lies between; exchange them in the model");
+    RelationResult result;
+    if (round.orientation == Orientation::none) {
+      result.applicable = false;
+      result.why = "the first shape has no axis: it needs a direction or normal";
+      return result;
+    }
+    const Vec3 arm = beside.centroid - round.centroid;
+    const double along = arm.dot(round.direction);
+    const double distance = (arm - along * round.direction).norm();
+    const double diagonal = input.object_box.diagonal();
+    result.residual = std::max({0.0, low - distance, distance - high});
+    result.tolerance = tolerance_rel_ * diagonal;
+    result.sd = std::hypot(std::hypot(round.centroid_sd, beside.centroid_sd), along * round.direction_sd);
+    result.dof = 1;
+    result.slack = high - low;
+    result.clutter_density = 1 / diagonal;
+    return result;
+  }
+
+ private:
+  double tolerance_rel_;  // of the object box's diagonal
+};
+
+constexpr OptionSpec options[] = {
+    {"tolerance_rel", OptionType::real, "diagonals", "0.01", "0.000001", "1",
+     "how far beyond the model's range the distance may lie"},
+};
+constexpr OptionSpec arguments[] = {
+    {"min", OptionType::real, "length", "0", "0", "", "least distance of the second centroid from the first's axis"},
+    {"max", OptionType::real, "length", "", "0", "", "greatest distance of the second centroid from the first's axis"},
+};
+
+}  // namespace
+
+TOPOSCOPE_PLUGIN(RelationTester, AxisDistance,
+                 {.id = "axis-distance",
+                  .version = "1.0.0",
+                  .summary = "A feature's centroid lies between min and max beside the axis of another",
+                  .unit = "length",
+                  .min_arity = 2,
+                  .max_arity = 2,
+                  .options = options,
+                  .arguments = arguments})

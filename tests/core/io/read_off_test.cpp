@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/io/mesh_files.h"
+
+namespace toposcope {
+namespace {
+
+using test::expect_square, test::read_text, test::refusal, test::says;
+
+const std::string body = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+
+TEST(ReadOff, AllFormsOfTheHeader) {
+  for (const char* header : {"OFF\n4 1 0\n", "OFF 4 1 0\n", "OFF4 1 4 # glued\n", "4 1 0\n", "OFF\n4 1\n",
+                             "STCNOFF\n4 1 0\n", "# comment\n\n OFF # more\n#\n4 1 0\n\n", "OFF\r\n4 1 0\r\n"})
+    expect_square(read_text(header + body, ".off"));
+  expect_square(read_text("OFF\n4 1 0\n" + body.substr(0, body.size() - 1), ".txt"));
+}
+
+TEST(ReadOff, ColoursNormalsAndCommentsAreSkipped) {
+  expect_square(
+      read_text("CNOFF\n4 1 0\n0 0 0 0 0 1 255 0 0 255\n1 0 0 0 0 1 0.5 0.5 0.5 # red\n\n1 1 0\n# none\n0 1 0 9\n"
+                "4 0 1 2 3 255 0 0\n",
+                ".off"));
+}
+
+TEST(ReadOff, Refusals) {
+  EXPECT_TRUE(says(refusal("OFF\n353535235358 1 0\n" + body, ".off"), "mesh.off:2: the header announces 353535235358"));
+  EXPECT_TRUE(says(refusal("OFF\n4 99999999999 0\n" + body, ".off"), "as the number of faces"));
+  EXPECT_TRUE(says(refusal("OFF\n-4 1 0\n" + body, ".off"), "announces -4"));
+  EXPECT_TRUE(says(refusal("OFF BINARY\n4 1 0\n", ".off"), "binary OFF is not supported"));
+  EXPECT_TRUE(says(refusal("4OFF\n4 1 0\n" + body, ".off"), "not supported"));
+  EXPECT_TRUE(says(refusal("COFFEE\n4 1 0\n" + body, ".off"), "found 'EE'"));
+  EXPECT_TRUE(says(refusal("tea\n4 1 0\n" + body, ".off"), "expected OFF but found 'tea'"));
+  EXPECT_TRUE(says(refusal("OFF\n5 1 0\n" + body + "3 0 1", ".off"), "cut short"));
+  EXPECT_TRUE(says(refusal("OFF\n4 0 0\n" + body, ".off"), "no face"));
+  EXPECT_TRUE(
+      says(refusal("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 4\n", ".off"), "mesh.off:7: a face refers to"));
+  EXPECT_TRUE(says(refusal("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n300 0 1 2\n", ".off"), "a face of 300 corners"));
+  EXPECT_TRUE(says(refusal("OFF\n4 1 0\n0 0 0\n1 inf 0\n1 1 0\n0 1 0\n3 0 1 2\n", ".off"), ":4: vertex 1"));
+  const std::string whole = "OFF\n4 1 0\n" + body;
+  for (std::size_t size = 0; size + 2 < whole.size(); ++size)
+    EXPECT_NE(refusal(whole.substr(0, size), ".off"), "") << size << " bytes";
+}
+
+}  // namespace
+}  // namespace toposcope
