@@ -122,7 +122,7 @@ std::vector<Candidate> FrameSearch::flush_with_faces(std::size_t enough, std::si
   std::stable_sort(normals.begin(), normals.end(), by_bound);
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [bound, normal] : normals) {
-    if (candidates.size() >= most || (bound >= least && candidates.size() >= 16)) break;
+    if (candidates.size() >= most || (bound >= least && candidates.size() >= enough)) break;
     candidates.push_back(best_about(normal));
     least = std::min(least, candidates.back().volume);
   }

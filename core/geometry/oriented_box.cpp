@@ -12,8 +12,8 @@ namespace {
 
 using geometry::Axes, geometry::Candidate, geometry::Columns, geometry::FrameSearch;
 
-constexpr std::size_t most_points = 1024;                            ///< up to here the hull is made of all points
-constexpr std::size_t most_corners = 128;                            ///< of a hull that is searched
+constexpr std::size_t few_points = 100, most_points = 1024;  ///< of which the whole hull is made: always, at most
+constexpr std::size_t most_corners = 75;  ///< extreme points found, above which only these make the hull
 constexpr std::size_t enough_candidates = 16, most_candidates = 24;  ///< frames flush with a face of the hull
 constexpr std::size_t descended_corners = 300;  ///< corners of the hull times frames that are improved
 constexpr std::size_t polished_corners = 150;   ///< corners of the hull times frames that are improved further
@@ -65,13 +65,13 @@ Candidate best_frame(FrameSearch& search) {
 /// Frame of the least box around points in space: searched for the hull of some extreme points, which are joined by
 /// the points found farthest outside of the box, or of one tilted a little, until there are none.
 Axes search_axes(std::span<const Vec3> points, Columns& columns, const Vec3& half_extents) {
-  const bool many = points.size() > most_points;
-  FrameSearch search(many ? extreme_points(points, columns, half_extents) : std::vector(points.begin(), points.end()),
-                     half_extents);
-  if (search.corners().size() > most_corners) {
-    Columns corners(search.corners());
-    search = FrameSearch(extreme_points(search.corners(), corners, half_extents), half_extents);
+  std::vector<Vec3> chosen(points.begin(), points.end());
+  if (points.size() > few_points) {
+    // Where many directions share an extreme point the hull has few corners: then it is affordable to have them all.
+    std::vector<Vec3> extremes = extreme_points(points, columns, half_extents);
+    if (points.size() > most_points || extremes.size() > most_corners) chosen = std::move(extremes);
   }
+  FrameSearch search(chosen, half_extents);
   Candidate best = best_frame(search);
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Vec3> grown(search.corners().begin(), search.corners().end());
