@@ -32,8 +32,9 @@ int dispatch(int argc, char** argv) {
   CLI::App app{"Finds, names and measures the features of a class of objects on triangle meshes.", "toposcope"};
   app.set_version_flag("--version", TOPOSCOPE_VERSION);
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done; 2 bad usage, model or pipeline; 3 a mesh that cannot be used; 4 a plugin that cannot "
-             "be used.");
+  app.footer(
+      "Exit codes: 0 done; 2 bad usage, model or pipeline; 3 a mesh that cannot be used; 4 a plugin that cannot "
+      "be used.");
   int code = 0;
 
   RunOptions run_options;

@@ -99,10 +99,10 @@ int plugins_check(const PluginsOptions& options) {
   }
   for (PluginKind kind : kinds)
     for (const PluginManifest* plugin : host.catalog().all(kind)) {
-      const bool asked = options.paths.empty() ||
-                         std::any_of(options.paths.begin(), options.paths.end(), [&](const fs::path& path) {
-                           return fs::is_directory(path) || fs::absolute(path).stem() == plugin->library.stem();
-                         });
+      const bool asked =
+          options.paths.empty() || std::any_of(options.paths.begin(), options.paths.end(), [&](const fs::path& path) {
+            return fs::is_directory(path) || fs::absolute(path).stem() == plugin->library.stem();
+          });
       if (!asked) continue;
       try {
         host.load(kind, plugin->id);

@@ -35,8 +35,7 @@ int run(const RunOptions& options) {
   return for_each_mesh(options.meshes, session, [&](const fs::path& path) {
     const auto start = std::chrono::steady_clock::now();
     const Mesh mesh = read_mesh(path);
-    const double read_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    const double read_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     const Analysis analysis = analyze(mesh, model, stations, {}, session.context());
     Result result = explain(analysis, model, path.string(), stations, session.context());
     result.timings.insert(result.timings.begin(), {"read", read_ms});

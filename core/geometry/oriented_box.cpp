@@ -13,12 +13,14 @@ namespace {
 using geometry::Axes, geometry::Candidate, geometry::Columns, geometry::FrameSearch;
 
 constexpr std::size_t few_points = 100, most_points = 1024;  ///< of which the whole hull is made: always, at most
-constexpr std::size_t most_corners = 75;  ///< extreme points found, above which only these make the hull
+constexpr std::size_t most_extremes = 75;  ///< of the points farthest out, above which only these make the hull
+constexpr std::size_t most_corners = 128;  ///< of the whole hull
 constexpr std::size_t enough_candidates = 16, most_candidates = 24;  ///< frames flush with a face of the hull
 constexpr std::size_t descended_corners = 300;  ///< corners of the hull times frames that are improved
-constexpr std::size_t polished_corners = 150;   ///< corners of the hull times frames that are improved further
+constexpr std::size_t polished_corners = 60;    ///< corners of the hull times frames that are improved further
 constexpr double largest_tilt = 0.12, smallest_tilt = 0.01;  ///< radians
 constexpr int most_rounds = 4;                               ///< of adding what lies outside of the box
+constexpr double same_volume = 1e-9;                         ///< relative difference of volumes of one and the same box
 constexpr double rounding = 1e-13;                           ///< of lengths, relative to the set's extent
 constexpr double flat_side = 1e-12;                          ///< side / longest side that is rounding, not thickness
 
@@ -57,6 +59,9 @@ Candidate best_frame(FrameSearch& search) {
   for (Candidate& candidate : candidates) candidate = search.descend(candidate);
   const auto by_volume = [](const Candidate& p, const Candidate& q) { return p.volume < q.volume; };
   std::stable_sort(candidates.begin(), candidates.end(), by_volume);
+  // Many descents end in the same valley.
+  const auto same = [](const Candidate& p, const Candidate& q) { return q.volume <= p.volume * (1 + same_volume); };
+  candidates.erase(std::unique(candidates.begin(), candidates.end(), same), candidates.end());
   candidates.resize(std::min(candidates.size(), std::clamp<std::size_t>(polished_corners / corners, 1, 16)));
   for (Candidate& candidate : candidates) candidate = search.polish(candidate, largest_tilt, smallest_tilt);
   return *std::min_element(candidates.begin(), candidates.end(), by_volume);
@@ -65,13 +70,12 @@ Candidate best_frame(FrameSearch& search) {
 /// Frame of the least box around points in space: searched for the hull of some extreme points, which are joined by
 /// the points found farthest outside of the box, or of one tilted a little, until there are none.
 Axes search_axes(std::span<const Vec3> points, Columns& columns, const Vec3& half_extents) {
-  std::vector<Vec3> chosen(points.begin(), points.end());
-  if (points.size() > few_points) {
-    // Where many directions share an extreme point the hull has few corners: then it is affordable to have them all.
-    std::vector<Vec3> extremes = extreme_points(points, columns, half_extents);
-    if (points.size() > most_points || extremes.size() > most_corners) chosen = std::move(extremes);
-  }
-  FrameSearch search(chosen, half_extents);
+  std::vector<Vec3> extremes;
+  if (points.size() > few_points) extremes = extreme_points(points, columns, half_extents);
+  // Where many directions share an extreme point the hull has few corners: then it is affordable to have them all.
+  const bool whole = points.size() <= few_points || (points.size() <= most_points && extremes.size() <= most_extremes);
+  FrameSearch search(whole ? points : std::span<const Vec3>(extremes), half_extents);
+  if (search.corners().size() > most_corners && !extremes.empty()) search = FrameSearch(extremes, half_extents);
   Candidate best = best_frame(search);
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Vec3> grown(search.corners().begin(), search.corners().end());

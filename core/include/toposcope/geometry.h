@@ -20,7 +20,7 @@ struct PrincipalAxes {
 PrincipalAxes principal_axes(std::span<const Vec3> points);
 
 /// Oriented box of (nearly) least volume: of the boxes with a face flush with a face of the convex hull, the one of
-/// least volume after local descent. Within 0.1 % of the minimum on average and 1 % but for rare sets of few points
+/// least volume after local descent. Within 0.1 % of the minimum on average and 1 % with rare exceptions
 /// (tests hold it against a fine search over rotations); deterministic; equivariant under rotation, translation, scale
 /// and vertex order up to rounding. Flat and linear sets get sides of length 0.
 Box oriented_box(std::span<const Vec3> points);

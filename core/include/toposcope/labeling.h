@@ -28,8 +28,8 @@ struct LabelingConstraint {
   std::string name;
   std::vector<Index> scope;
   std::vector<float> costs;       ///< minus log likelihood ratio of "holds" against unrelated features
-  std::vector<float> violations;  ///< residual / tolerance: satisfied where <= 1, infinite where it cannot apply; 0 where
-                                  ///< a variable is missing
+  std::vector<float> violations;  ///< residual / tolerance: satisfied where <= 1, infinite where it cannot apply; 0
+                                  ///< where a variable is missing
 };
 
 /// Variables, domains, constraints and exclusions; knows nothing of meshes (dissertation 3.4.2, "consistent
@@ -44,9 +44,7 @@ struct LabelingProblem {
                                              ///< candidate conflicts with itself
   std::size_t conflict_words() const { return (candidate_count + 63) / 64; }
   /// True where two candidates may not both be used: they share a vertex.
-  bool conflict(Index a, Index b) const {
-    return (conflict_bits[a * conflict_words() + b / 64] >> (b % 64)) & 1U;
-  }
+  bool conflict(Index a, Index b) const { return (conflict_bits[a * conflict_words() + b / 64] >> (b % 64)) & 1U; }
 };
 
 struct LabelingRequest {
@@ -62,8 +60,8 @@ struct Labeling {
 struct LabelingOutcome {
   std::vector<Labeling> labelings;  ///< best first, at most k_best; never empty: all missing is a labelling
   double lower_bound = -std::numeric_limits<double>::infinity();
-  bool optimal = false;             ///< the first labelling is proven best under the labeler's own rules
-  double log_evidence = 0;          ///< log of the sum over labellings of exp(-cost)
+  bool optimal = false;                         ///< the first labelling is proven best under the labeler's own rules
+  double log_evidence = 0;                      ///< log of the sum over labellings of exp(-cost)
   std::vector<std::vector<double>> posteriors;  ///< per variable, per value; empty where the labeler makes none
   std::uint64_t nodes = 0;
   std::string guarantee;  ///< one line: what the labeler promises of this outcome

@@ -46,16 +46,16 @@ inline constexpr std::uint32_t abi_minor = 0;  ///< a plugin built against a new
 inline constexpr const char* abi_fingerprint =
     "cxxabi=" TOPOSCOPE_STRINGIFY(__GXX_ABI_VERSION) ";cxx11-strings=" TOPOSCOPE_STRINGIFY(
         _GLIBCXX_USE_CXX11_ABI) ";containers=" TOPOSCOPE_CONTAINERS_ ";build=" TOPOSCOPE_BUILD_
-                                ";sanitizer=" TOPOSCOPE_SANITIZER_ ";scalar=double;pointer=" TOPOSCOPE_STRINGIFY(
-                                    __SIZEOF_POINTER__);
+                                ";sanitizer=" TOPOSCOPE_SANITIZER_
+                                ";scalar=double;pointer=" TOPOSCOPE_STRINGIFY(__SIZEOF_POINTER__);
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && alignof(Vec3) == alignof(double),
               "Vec3 must have the same layout in every plugin");
 
 /// A name that the plugin provides to models: a working-set type, a measure of a shape.
 struct ProvidedName {
-  const char* name;       ///< '#' stands for 1, 2, 3, ...: `length_#`
-  std::int32_t dimension; ///< power of length (0: a number or an angle)
+  const char* name;        ///< '#' stands for 1, 2, 3, ...: `length_#`
+  std::int32_t dimension;  ///< power of length (0: a number or an angle)
   const char* meaning;
 };
 
@@ -65,14 +65,14 @@ struct PluginDescriptor {
   std::uint32_t major;
   std::uint32_t minor;
   const char* fingerprint;
-  const char* kind;     ///< "worksets", "shapes", "relations", "labelers", "filters"
-  const char* id;       ///< lower-case words joined by '-', unique over all kinds
-  const char* version;  ///< of the plugin, x.y.z
-  const char* summary;  ///< one line
-  const char* citation; ///< paper or section; may be ""
-  const char* unit;     ///< relations: unit of the residual, "deg" or "length"; else ""
-  std::uint32_t min_arity;  ///< shapes: working sets per feature; relations: features; else 0
-  std::uint32_t max_arity;  ///< 0: no upper bound
+  const char* kind;           ///< "worksets", "shapes", "relations", "labelers", "filters"
+  const char* id;             ///< lower-case words joined by '-', unique over all kinds
+  const char* version;        ///< of the plugin, x.y.z
+  const char* summary;        ///< one line
+  const char* citation;       ///< paper or section; may be ""
+  const char* unit;           ///< relations: unit of the residual, "deg" or "length"; else ""
+  std::uint32_t min_arity;    ///< shapes: working sets per feature; relations: features; else 0
+  std::uint32_t max_arity;    ///< 0: no upper bound
   const OptionSpec* options;  ///< set in the pipeline
   std::size_t option_count;
   const OptionSpec* arguments;  ///< set in the model: `segments` of a line group, `max` of a distance
@@ -85,12 +85,28 @@ struct PluginDescriptor {
 };
 
 namespace detail {
-template <class Base> struct KindOf;
-template <> struct KindOf<WorkingSetClassifier> { static constexpr const char* name = "worksets"; };
-template <> struct KindOf<ShapeFitter> { static constexpr const char* name = "shapes"; };
-template <> struct KindOf<RelationTester> { static constexpr const char* name = "relations"; };
-template <> struct KindOf<Labeler> { static constexpr const char* name = "labelers"; };
-template <> struct KindOf<MeshFilter> { static constexpr const char* name = "filters"; };
+template <class Base>
+struct KindOf;
+template <>
+struct KindOf<WorkingSetClassifier> {
+  static constexpr const char* name = "worksets";
+};
+template <>
+struct KindOf<ShapeFitter> {
+  static constexpr const char* name = "shapes";
+};
+template <>
+struct KindOf<RelationTester> {
+  static constexpr const char* name = "relations";
+};
+template <>
+struct KindOf<Labeler> {
+  static constexpr const char* name = "labelers";
+};
+template <>
+struct KindOf<MeshFilter> {
+  static constexpr const char* name = "filters";
+};
 
 template <class Base, class Plugin>
 void* create(const Options* options, std::string* error) {
@@ -125,21 +141,37 @@ struct PluginInfo {
 
 template <class Base, class Plugin>
 PluginDescriptor describe(const PluginInfo& info) {
-  return {sizeof(PluginDescriptor), abi_major, abi_minor, abi_fingerprint, detail::KindOf<Base>::name, info.id,
-          info.version, info.summary, info.citation, info.unit, info.min_arity, info.max_arity, info.options.data(),
-          info.options.size(), info.arguments.data(), info.arguments.size(), info.provides.data(),
-          info.provides.size(), &detail::create<Base, Plugin>, &detail::destroy<Base>};
+  return {sizeof(PluginDescriptor),
+          abi_major,
+          abi_minor,
+          abi_fingerprint,
+          detail::KindOf<Base>::name,
+          info.id,
+          info.version,
+          info.summary,
+          info.citation,
+          info.unit,
+          info.min_arity,
+          info.max_arity,
+          info.options.data(),
+          info.options.size(),
+          info.arguments.data(),
+          info.arguments.size(),
+          info.provides.data(),
+          info.provides.size(),
+          &detail::create<Base, Plugin>,
+          &detail::destroy<Base>};
 }
 
 #define TOPOSCOPE_PLUGIN_SYMBOL "toposcope_plugin"
 
 /// Makes `Class` (constructible from `const toposcope::Options&`, derived from the kind's base) a plugin:
 ///   TOPOSCOPE_PLUGIN(ShapeFitter, Circle, {.id = "circle", .version = "1.0.0", .summary = "...", .options = options})
-#define TOPOSCOPE_PLUGIN(Base, Class, ...)                                                                      \
-  extern "C" __attribute__((visibility("default"))) const ::toposcope::PluginDescriptor* toposcope_plugin() {   \
-    static const ::toposcope::PluginDescriptor descriptor =                                                     \
-        ::toposcope::describe<::toposcope::Base, Class>(::toposcope::PluginInfo __VA_ARGS__);                   \
-    return &descriptor;                                                                                         \
+#define TOPOSCOPE_PLUGIN(Base, Class, ...)                                                                    \
+  extern "C" __attribute__((visibility("default"))) const ::toposcope::PluginDescriptor* toposcope_plugin() { \
+    static const ::toposcope::PluginDescriptor descriptor =                                                   \
+        ::toposcope::describe<::toposcope::Base, Class>(::toposcope::PluginInfo __VA_ARGS__);                 \
+    return &descriptor;                                                                                       \
   }
 
 }  // namespace toposcope

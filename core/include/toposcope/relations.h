@@ -26,7 +26,7 @@ struct RelationInput {
 /// How far a relation is from holding, in its natural unit (rad or mesh unit; the descriptor says which), and
 /// what the kernel needs to weigh it (design: likelihood of "holds" against unrelated features).
 struct RelationResult {
-  bool applicable = true;      ///< false: these shapes cannot stand in this relation; `why` says so
+  bool applicable = true;  ///< false: these shapes cannot stand in this relation; `why` says so
   std::string why;
   double residual = 0;         ///< >= 0
   double tolerance = 0;        ///< crisp form: satisfied when residual <= tolerance; > 0

@@ -79,11 +79,11 @@ struct FittedShape {
 
 /// The points to fit and the lengths that give them scale.
 struct FitInput {
-  std::span<const Vec3> points;         ///< the working sets' points, one set after the other
-  std::span<const double> areas;        ///< the surface that each point stands for: a third of its triangles
-  std::span<const Index> set_offsets;   ///< size sets + 1
-  Box box;                        ///< bb(w): of all points
-  Box object_box;                       ///< bb(O)
+  std::span<const Vec3> points;        ///< the working sets' points, one set after the other
+  std::span<const double> areas;       ///< the surface that each point stands for: a third of its triangles
+  std::span<const Index> set_offsets;  ///< size sets + 1
+  Box box;                             ///< bb(w): of all points
+  Box object_box;                      ///< bb(O)
   double mean_edge = 0;
 };
 

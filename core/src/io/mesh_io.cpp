@@ -2,7 +2,6 @@
 #include "io/mesh_io.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>

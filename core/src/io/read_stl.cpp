@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
-#include <cstring>
 #include <limits>
 
 #include "io/readers.h"

@@ -57,7 +57,12 @@ void read_tolerance(const YAML::Node& node, const PluginManifest* relation, cons
   if (!relationship.tolerance) return;
   const std::string minimum = "0.000001";  // of either unit: a tolerance of 0 is never met
   const std::string unit = relation ? relation->unit : relationship.tolerance->dimension() == 1 ? "length" : "deg";
-  const OptionRow row{"tolerance", OptionType::real, unit, "", relationship.tolerance->uses_object() ? "" : minimum, "",
+  const OptionRow row{"tolerance",
+                      OptionType::real,
+                      unit,
+                      "",
+                      relationship.tolerance->uses_object() ? "" : minimum,
+                      "",
                       "largest residual at which the relationship counts as satisfied"};
   check_argument(row, *relationship.tolerance, node, owner, reading);
 }

@@ -37,9 +37,9 @@ struct Analysis {
   PreparedMesh mesh;
   WorkingSets sets;
   ConstructedFeatures features;
-  std::vector<ClassOutcome> classes;          ///< one for a model without classes
-  std::vector<double> class_probabilities;    ///< over `classes` and, last, none of them
-  std::size_t best = 0;                       ///< the class of greatest evidence
+  std::vector<ClassOutcome> classes;        ///< one for a model without classes
+  std::vector<double> class_probabilities;  ///< over `classes` and, last, none of them
+  std::size_t best = 0;                     ///< the class of greatest evidence
   Timings timings;
 };
 

@@ -79,8 +79,7 @@ class GroupEnumerator {
     for (Index s : of_type_[position]) {
       bool fits = true;
       for (std::size_t i = 0; i < position && fits; ++i)
-        fits = !overlap_.get(group_[i], s) &&
-               (feature_.worksets[i] != feature_.worksets[position] || group_[i] < s);
+        fits = !overlap_.get(group_[i], s) && (feature_.worksets[i] != feature_.worksets[position] || group_[i] < s);
       if (!fits) continue;
       group_.push_back(s);
       extend();
@@ -104,9 +103,8 @@ Bounds evaluate(const Range& range, const ExpressionBoxes& boxes) {
 
 bool uses_working_set_box(const ModelFeature& feature) {
   const auto uses = [](const std::optional<Expression>& e) { return e && e->uses_worksets(); };
-  return uses(feature.max_fit_error) || std::any_of(feature.ranges.begin(), feature.ranges.end(), [&](const Range& r) {
-           return uses(r.low) || uses(r.high);
-         });
+  return uses(feature.max_fit_error) || std::any_of(feature.ranges.begin(), feature.ranges.end(),
+                                                    [&](const Range& r) { return uses(r.low) || uses(r.high); });
 }
 
 /// The box along the principal axes: a stand-in for bb(w) of many groups, of which few are kept.
@@ -223,11 +221,21 @@ JobResult run_job(const FitJob& job, const GroupEnumerator& groups, const MeshVi
 void count(CandidateCount& count, std::span<const Fate> fates) {
   count.groups = fates.size();
   for (Fate fate : fates) switch (fate) {
-      case Fate::boxed_out: ++count.boxed_out; break;
-      case Fate::unusable: ++count.unusable; break;
-      case Fate::out_of_range: ++count.out_of_range; break;
-      case Fate::poor_fit: ++count.poor_fit; break;
-      case Fate::fitted: ++count.kept; break;
+      case Fate::boxed_out:
+        ++count.boxed_out;
+        break;
+      case Fate::unusable:
+        ++count.unusable;
+        break;
+      case Fate::out_of_range:
+        ++count.out_of_range;
+        break;
+      case Fate::poor_fit:
+        ++count.poor_fit;
+        break;
+      case Fate::fitted:
+        ++count.kept;
+        break;
     }
 }
 
@@ -239,8 +247,8 @@ double fit_error_sd(const ModelFeature& feature, const MeshView& mesh, const Box
 
 /// Moves the best candidates of each feature of a job to `out`.
 void select(const FitJob& job, const GroupEnumerator& groups, const JobResult& result, const MeshView& mesh,
-            const Model& model, const WorkingSets& sets, std::span<const double> vertex_areas,
-            const Stations& stations, ConstructedFeatures& out) {
+            const Model& model, const WorkingSets& sets, std::span<const double> vertex_areas, const Stations& stations,
+            ConstructedFeatures& out) {
   constexpr Index unmade = std::numeric_limits<Index>::max();
   std::vector<Index> made(groups.size(), unmade);  // into out.all
   std::vector<std::pair<double, Index>> ranked;
@@ -297,8 +305,9 @@ ConstructedFeatures construct_features(const MeshView& mesh, const Model& model,
   const std::vector<FitJob> jobs = fit_jobs(model, stations);
   for (std::size_t j = 0; j < jobs.size(); ++j) {
     const GroupEnumerator groups(*jobs[j].feature, sets, overlap);
-    const JobResult result = guard(jobs[j].feature->shape.plugin,
-                             [&] { return run_job(jobs[j], groups, mesh, model, sets, vertex_areas, boxes, context); });
+    const JobResult result = guard(jobs[j].feature->shape.plugin, [&] {
+      return run_job(jobs[j], groups, mesh, model, sets, vertex_areas, boxes, context);
+    });
     select(jobs[j], groups, result, mesh, model, sets, vertex_areas, stations, features);
     context.progress(static_cast<double>(j + 1) / static_cast<double>(jobs.size()));
   }

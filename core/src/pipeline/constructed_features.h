@@ -16,18 +16,18 @@ namespace toposcope {
 struct ConstructedFeature {
   std::vector<Index> sets;  ///< working sets, in the order of the feature's types
   FittedShape shape;
-  Box box;                    ///< bb(w)
-  std::vector<Vec3> points;   ///< of all sets, one after the other
+  Box box;                   ///< bb(w)
+  std::vector<Vec3> points;  ///< of all sets, one after the other
 };
 
 /// How many groups of working sets a feature lost at each condition.
 struct CandidateCount {
-  std::size_t groups = 0;         ///< groups of working sets of the right types
-  std::size_t boxed_out = 0;      ///< could not meet the ranges, by their boxes
-  std::size_t unusable = 0;       ///< the fit failed or is degenerate
-  std::size_t out_of_range = 0;   ///< a parameter outside the model's range
-  std::size_t poor_fit = 0;       ///< fit error beyond max_fit_error
-  std::size_t beaten = 0;         ///< beyond the number of candidates kept
+  std::size_t groups = 0;        ///< groups of working sets of the right types
+  std::size_t boxed_out = 0;     ///< could not meet the ranges, by their boxes
+  std::size_t unusable = 0;      ///< the fit failed or is degenerate
+  std::size_t out_of_range = 0;  ///< a parameter outside the model's range
+  std::size_t poor_fit = 0;      ///< fit error beyond max_fit_error
+  std::size_t beaten = 0;        ///< beyond the number of candidates kept
   std::size_t kept = 0;
 };
 

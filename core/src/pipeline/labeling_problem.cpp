@@ -34,8 +34,8 @@ struct BoundRelation {
 
   BoundRelation(const MeshView& mesh, const Model& model, Index relationship, const Stations& stations)
       : tester(stations.relations.at(model.relationships[relationship].plugin).get()),
-        arguments(relation_arguments(mesh, model.relationships[relationship],
-                                     stations.relation_defaults[relationship])) {
+        arguments(
+            relation_arguments(mesh, model.relationships[relationship], stations.relation_defaults[relationship])) {
     if (const auto& given = model.relationships[relationship].tolerance)
       tolerance = given->evaluate({mesh.box, Box{}}) * (stations.relation_units[relationship] == "deg" ? pi / 180 : 1);
   }
@@ -130,7 +130,8 @@ LabelingProblem build_problem(const MeshView& mesh, const Model& model, const Co
     const DetectabilityCosts costs = detectability_costs(stations.probability, variable.detectability);
     variable.costs.push_back(costs.missing);
     // A feature that is there is any one of the candidates: the prior is shared among them.
-    const double share = std::log(std::max<double>(1, static_cast<double>(candidates.count.kept + candidates.count.beaten)));
+    const double share =
+        std::log(std::max<double>(1, static_cast<double>(candidates.count.kept + candidates.count.beaten)));
     for (double evidence : candidates.evidence) variable.costs.push_back(costs.present + share - evidence);
   }
 
@@ -148,9 +149,8 @@ LabelingProblem build_problem(const MeshView& mesh, const Model& model, const Co
     const Relationship& relationship = model.relationships[r];
     LabelingConstraint& constraint = problem.constraints.emplace_back(empty_constraint(relationship, problem));
     const BoundRelation relation(mesh, model, r, stations);
-    guard(relationship.plugin, [&] {
-      fill_constraint(constraint, mesh, relation, problem, features, stations.probability, context);
-    });
+    guard(relationship.plugin,
+          [&] { fill_constraint(constraint, mesh, relation, problem, features, stations.probability, context); });
     context.progress(static_cast<double>(r + 1) / static_cast<double>(model.relationships.size()));
   }
   return problem;

@@ -25,8 +25,7 @@ std::vector<ClassOutcome> pose_classes(const LabelingProblem& problem, const Mod
 LabelingProblem restricted(const LabelingProblem& problem, const std::vector<std::vector<Index>>& kept);
 
 /// Where a labelling stands in a constraint's tables.
-std::size_t table_entry(const LabelingProblem& problem, const LabelingConstraint& constraint,
-                        const Labeling& labeling);
+std::size_t table_entry(const LabelingProblem& problem, const LabelingConstraint& constraint, const Labeling& labeling);
 
 /// Refuses an outcome that breaks the labelers' contract: no labelling, values out of range, two features that share a
 /// vertex, posteriors of the wrong size. \throw PluginError

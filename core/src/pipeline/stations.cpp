@@ -46,8 +46,7 @@ Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const
       if (!worksets.find_provided(type))
         throw UsageError(feature.where.str() + ": feature '" + feature.name + "' asks for working sets of type '" +
                          type + "', which '" + worksets.id + "' of pipeline '" + pipeline.name + "' does not provide");
-    const PluginManifest& shape =
-        catalog.require(PluginKind::shapes, feature.shape.plugin, feature.shape.where.str());
+    const PluginManifest& shape = catalog.require(PluginKind::shapes, feature.shape.plugin, feature.shape.where.str());
     stations.shape_arguments.push_back(check_options(shape.arguments, feature.shape.arguments,
                                                      feature.shape.where.str() + ": shape '" + shape.id + "'"));
     if (stations.shapes.contains(shape.id)) continue;

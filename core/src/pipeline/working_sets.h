@@ -13,8 +13,8 @@ namespace toposcope {
 /// The working sets of a mesh, in compressed rows; possibly overlapping.
 struct WorkingSets {
   std::vector<std::string> type_names;
-  std::vector<Index> types;     ///< one per set, into `type_names`
-  std::vector<double> saliency; ///< one per set
+  std::vector<Index> types;      ///< one per set, into `type_names`
+  std::vector<double> saliency;  ///< one per set
   std::vector<Index> offsets = {0};
   std::vector<Index> vertices;
 

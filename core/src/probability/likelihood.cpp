@@ -36,7 +36,9 @@ double log_holds(const ProbabilityModel& model, const RelationResult& result) {
 }
 
 /// log(exp(a) + exp(b)), safe for large terms.
-double log_add(double a, double b) { return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b))); }
+double log_add(double a, double b) {
+  return std::max(a, b) + std::log1p(std::exp(-std::abs(a - b)));
+}
 
 }  // namespace
 

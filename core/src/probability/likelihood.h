@@ -11,12 +11,12 @@ namespace toposcope {
 
 /// The constants of the probabilistic model (docs/probabilities.md), from the pipeline's `probability` section.
 struct ProbabilityModel {
-  double sample_spacing;      ///< mean edges between independent samples of a shape
-  double fit_error_scale;     ///< mean edges: sd of a point's distance from its shape, where the model says nothing
-  double unexplained_cost;    ///< nats per independent sample that the shape leaves out
-  double relation_exception;  ///< probability that a relationship fails although its features are right
-  double certainty;           ///< detectability is held below this: nothing is certain
-  std::size_t max_candidates; ///< kept per feature, the best by evidence
+  double sample_spacing;       ///< mean edges between independent samples of a shape
+  double fit_error_scale;      ///< mean edges: sd of a point's distance from its shape, where the model says nothing
+  double unexplained_cost;     ///< nats per independent sample that the shape leaves out
+  double relation_exception;   ///< probability that a relationship fails although its features are right
+  double certainty;            ///< detectability is held below this: nothing is certain
+  std::size_t max_candidates;  ///< kept per feature, the best by evidence
 };
 
 /// log L_f(c) / L_0(c): the evidence of a fit against clutter, in nats.

@@ -15,8 +15,8 @@ std::string signature(const ModelFeature& feature) {
   for (const auto& [name, value] : feature.shape.arguments) text += "|" + name + "=" + value;
   for (const std::string& type : feature.worksets) text += "|" + type;
   for (const Range& range : feature.ranges)
-    text += "|" + (range.low ? range.low->text() : "") + "<" + range.measure + "<" +
-            (range.high ? range.high->text() : "");
+    text +=
+        "|" + (range.low ? range.low->text() : "") + "<" + range.measure + "<" + (range.high ? range.high->text() : "");
   if (feature.max_fit_error) text += "|" + feature.max_fit_error->text();
   return text;
 }

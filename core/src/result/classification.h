@@ -12,8 +12,8 @@ namespace toposcope {
 /// Which class of objects explains a mesh best: over the classes of all models, a model without classes being one.
 struct Classification {
   std::string mesh_path;
-  std::string class_name;  ///< empty when nothing fits
-  std::string model;       ///< of the class
+  std::string class_name;                                     ///< empty when nothing fits
+  std::string model;                                          ///< of the class
   std::vector<std::pair<std::string, double>> probabilities;  ///< all classes alike beforehand; last "none"
   std::vector<RelationReport> relations;                      ///< of the best class
 };

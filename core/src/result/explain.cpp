@@ -36,8 +36,7 @@ class Explainer {
         given.push_back(&constructed(v, labeling.values[v]));
     }
     if (!report.why.empty()) return report;
-    const RelationResult result =
-        test_relationship(analysis_.mesh.view(), model_, r, given, stations_, context_);
+    const RelationResult result = test_relationship(analysis_.mesh.view(), model_, r, given, stations_, context_);
     const double scale = report.unit == "deg" ? 180 / pi : 1;
     report.tested = true;
     report.applicable = result.applicable;
@@ -132,8 +131,7 @@ class Explainer {
     MissingReport report;
     const LabelingVariable& variable = posed_.problem.variables[v];
     if (variable.candidates.empty()) {
-      report.reason = no_candidate(model_.features[model_feature],
-                                   analysis_.features.of_feature[model_feature].count);
+      report.reason = no_candidate(model_.features[model_feature], analysis_.features.of_feature[model_feature].count);
       return report;
     }
     Labeling trial = best_;
@@ -193,8 +191,8 @@ class Explainer {
     std::string types;
     for (const std::string& type : feature.worksets) types += (types.empty() ? "" : " + ") + type;
     if (count.groups == 0) return "no working set of type " + types;
-    std::string reason = "none of " + std::to_string(count.groups) + " groups of working sets of type " + types +
-                         " became a candidate:";
+    std::string reason =
+        "none of " + std::to_string(count.groups) + " groups of working sets of type " + types + " became a candidate:";
     const auto part = [&](std::size_t n, const char* what) {
       if (n > 0) reason += " " + std::to_string(n) + " " + what + ";";
     };
@@ -247,8 +245,7 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
     result.candidates.emplace_back(model.features[f].name, analysis.features.of_feature[f].count);
   }
   const Labeling& best = outcome.labelings.front();
-  for (Index c = 0; c < posed.problem.constraints.size(); ++c)
-    result.relations.push_back(explainer.relation(c, best));
+  for (Index c = 0; c < posed.problem.constraints.size(); ++c) result.relations.push_back(explainer.relation(c, best));
   const auto present = std::count_if(best.values.begin(), best.values.end(), [](Index value) { return value > 0; });
   result.status = present == 0 ? "none" : present == std::ssize(best.values) ? "labelled" : "partial";
   for (std::size_t k = 1; k < outcome.labelings.size(); ++k) {

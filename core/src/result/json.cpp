@@ -11,7 +11,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// JSON has no NaN or infinity.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
 
 Json parameters(const FittedShape& shape) {
   Json object = Json::object();
@@ -165,9 +167,13 @@ Json document(const Result& result) {
 
 }  // namespace
 
-std::string to_json(const Result& result) { return document(result).dump(1) + "\n"; }
+std::string to_json(const Result& result) {
+  return document(result).dump(1) + "\n";
+}
 
-std::string to_json_line(const Result& result) { return document(result).dump() + "\n"; }
+std::string to_json_line(const Result& result) {
+  return document(result).dump() + "\n";
+}
 
 std::string to_json_line(const Classification& classification) {
   Json root;

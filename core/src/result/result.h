@@ -14,13 +14,13 @@ namespace toposcope {
 struct RelationReport {
   std::string name, type;
   std::vector<std::string> features;
-  bool tested = false;      ///< false: a feature in its scope is missing
+  bool tested = false;  ///< false: a feature in its scope is missing
   bool applicable = true;
-  std::string why;          ///< why it is not tested or not applicable
+  std::string why;                     ///< why it is not tested or not applicable
   double residual = 0, tolerance = 0;  ///< in `unit`
-  std::string unit;         ///< "deg" or "length"
+  std::string unit;                    ///< "deg" or "length"
   bool satisfied = false;
-  double probability = 0;   ///< that it holds, given its residual
+  double probability = 0;  ///< that it holds, given its residual
 };
 
 /// Why a feature is missing.
@@ -34,8 +34,9 @@ struct MissingReport {
 struct FeatureReport {
   std::string name, shape_plugin;
   bool present = false;
-  double probability = 0;  ///< present: that this shape (to within a mean edge) is the feature; missing: that it is missing
-  double evidence = 0;     ///< nats by which labelling it beats leaving it missing, all else as it is
+  double probability =
+      0;  ///< present: that this shape (to within a mean edge) is the feature; missing: that it is missing
+  double evidence = 0;  ///< nats by which labelling it beats leaving it missing, all else as it is
   FittedShape shape;
   std::vector<Index> working_sets;
   std::vector<Index> triangles;  ///< of the input mesh
@@ -63,11 +64,11 @@ struct Result {
   Box box;
   double mean_edge = 0;
   std::string model;
-  std::string status;            ///< labelled, partial, none
-  std::string class_name;        ///< for a model with class rules: the best; empty when none fits
+  std::string status;      ///< labelled, partial, none
+  std::string class_name;  ///< for a model with class rules: the best; empty when none fits
   std::vector<ClassReport> classes;
   double log_evidence = 0;
-  std::string guarantee;         ///< what the labeler promises
+  std::string guarantee;  ///< what the labeler promises
   bool optimal = false;
   std::vector<FeatureReport> features;
   std::vector<RelationReport> relations;

@@ -33,19 +33,19 @@ std::string to_text(const Result& result) {
                       "fit error", "faces");
   for (const FeatureReport& report : result.features) {
     if (report.present)
-      text += fmt::format("  {:<14}{:<9}{:<6.3f}  {:<11}{:<44} {:>9.3g} {:>6}\n", report.name, "found",
-                          report.probability, report.shape_plugin, value_of(report), report.shape.rms,
-                          report.faces.size());
+      text +=
+          fmt::format("  {:<14}{:<9}{:<6.3f}  {:<11}{:<44} {:>9.3g} {:>6}\n", report.name, "found", report.probability,
+                      report.shape_plugin, value_of(report), report.shape.rms, report.faces.size());
     else
-      text += fmt::format("  {:<14}{:<9}{:<6.3f}  {}\n", report.name, "missing", report.probability,
-                          report.missing.reason);
+      text +=
+          fmt::format("  {:<14}{:<9}{:<6.3f}  {}\n", report.name, "missing", report.probability, report.missing.reason);
     for (const RelationReport& failed : report.missing.failed)
       text += failed.applicable ? fmt::format("  {:<31}{} {}: residual {:.4g} {}, tolerance {:.3g}\n", "", failed.name,
                                               failed.type, failed.residual, failed.unit, failed.tolerance)
                                 : fmt::format("  {:<31}{} {}: {}\n", "", failed.name, failed.type, failed.why);
   }
-  text += fmt::format("\n  {:<6}{:<22}{:<34}{:>10} {:>10} {:<7}{:<12}{:>6}\n", "", "relationship", "features", "residual",
-                      "tolerance", "unit", "", "prob.");
+  text += fmt::format("\n  {:<6}{:<22}{:<34}{:>10} {:>10} {:<7}{:<12}{:>6}\n", "", "relationship", "features",
+                      "residual", "tolerance", "unit", "", "prob.");
   for (const RelationReport& report : result.relations) {
     const std::string features = fmt::format("{}", fmt::join(report.features, ", "));
     if (report.tested && report.applicable)

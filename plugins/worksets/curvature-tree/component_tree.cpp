@@ -46,10 +46,10 @@ class Forest {
 
 /// What is remembered of each root between levels.
 struct Growth {
-  Index size_before = 0;     ///< at the end of the previous level in which it changed
-  double level_before = 0;   ///< of that level
-  Index size_offered = 0;    ///< when last offered
-  Index offered = none;      ///< index into the result, none if never
+  Index size_before = 0;    ///< at the end of the previous level in which it changed
+  double level_before = 0;  ///< of that level
+  Index size_offered = 0;   ///< when last offered
+  Index offered = none;     ///< index into the result, none if never
 };
 
 }  // namespace
@@ -100,8 +100,7 @@ std::vector<Component> components(const toposcope::MeshView& mesh, const std::ve
         Index a = forest.find(v), b = forest.find(q);
         if (a == b) continue;
         // The component with the longer past keeps its head; of equals the older.
-        if (growth[a].size_before < growth[b].size_before ||
-            (growth[a].size_before == growth[b].size_before && a > b))
+        if (growth[a].size_before < growth[b].size_before || (growth[a].size_before == growth[b].size_before && a > b))
           std::swap(a, b);
         if (growth[b].size_before >= limits.min_vertices) {  // two components with a past meet: both as they were
           for (Index head : {a, b}) {

@@ -10,7 +10,7 @@ namespace component_tree {
 using toposcope::Index;
 
 struct Limits {
-  double growth;             ///< a component is offered again each time that it has grown by this factor
+  double growth;  ///< a component is offered again each time that it has grown by this factor
   Index min_vertices;
   Index max_vertices;
   std::size_t max_components;  ///< those of greatest saliency times root of size are kept

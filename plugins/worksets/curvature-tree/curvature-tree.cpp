@@ -45,9 +45,8 @@ class CurvatureTree final : public WorkingSetClassifier {
   void classify(const MeshView& mesh, Context& context, WorkingSetSink& sink) const override {
     // Lengths relative to the root of the surface area: unlike a box it has no ties to break.
     const double size = std::sqrt(surface_area(mesh));
-    Curvature curvature =
-        turning_curvature(mesh, plane_fit_normals(mesh, context),
-                          rings_within(mesh, neighbourhood_ * mesh.box.diagonal()), context);
+    Curvature curvature = turning_curvature(mesh, plane_fit_normals(mesh, context),
+                                            rings_within(mesh, neighbourhood_ * mesh.box.diagonal()), context);
     smooth_over_ring(mesh, curvature.maximum, smoothing_, context);
     smooth_over_ring(mesh, curvature.minimum, smoothing_, context);
 

@@ -133,7 +133,8 @@ inline void expect_density_of_random_directions(const RelationTester& relation, 
   const auto density = [](const RelationResult& r) { return r.clutter_density * std::pow(r.residual, r.dof - 1); };
   double integral = 0;
   for (std::size_t i = 1; i < meridian.size(); ++i) {
-    integral += (meridian[i].residual - meridian[i - 1].residual) * (density(meridian[i]) + density(meridian[i - 1])) / 2;
+    integral +=
+        (meridian[i].residual - meridian[i - 1].residual) * (density(meridian[i]) + density(meridian[i - 1])) / 2;
     const auto below = std::lower_bound(residuals.begin(), residuals.end(), meridian[i].residual);
     EXPECT_NEAR(static_cast<double>(below - residuals.begin()) / count, integral, 2e-3);
   }

@@ -28,8 +28,7 @@ std::size_t count(const WorkingSets& sets, const std::string& type) {
 /// A closed can has two planar ends, one wall between the thresholds, two convex edges.
 TEST(CurvatureWorkingSets, OfACylinder) {
   const Mesh mesh(test::make_cylinder(1, 3, 64, 32), "cylinder");
-  const WorkingSets sets =
-      classify(mesh, {{"neighbourhood", "0"}, {"plane_threshold", "2"}, {"high_threshold", "6"}});
+  const WorkingSets sets = classify(mesh, {{"neighbourhood", "0"}, {"plane_threshold", "2"}, {"high_threshold", "6"}});
   EXPECT_EQ(count(sets, "planar"), 2u);
   EXPECT_EQ(count(sets, "convex"), 2u);
   EXPECT_EQ(count(sets, "other"), 1u);
@@ -44,8 +43,8 @@ TEST(CurvatureWorkingSets, CoverEveryVertexOnce) {
   EXPECT_EQ(distinct.size(), mesh.view().vertex_count());
 }
 
-/// Thresholds are relative to the object: the unit plays no role (the dissertation's sign test reads every concave vertex
-/// as convex at curvatures above 2 per unit).
+/// Thresholds are relative to the object: the unit plays no role (the dissertation's sign test reads every concave
+/// vertex as convex at curvatures above 2 per unit).
 TEST(CurvatureWorkingSets, DoNotDependOnTheUnit) {
   TriangleSoup soup = test::make_torus(2, 0.6, 60, 30);
   const Mesh mesh(soup, "torus");
