@@ -95,6 +95,31 @@ TriangleSoup make_cylinder(double radius, double height, int around, int along, 
   return finished(std::move(soup));
 }
 
+TriangleSoup make_can(double radius, double height, int around, int along, int across) {
+  std::vector<std::pair<double, double>> profile;  // (radius, z), from the bottom's first ring to the top's last
+  for (int i = 1; i <= across; ++i) profile.emplace_back(radius * i / across, -height / 2);
+  for (int j = 1; j <= along; ++j) profile.emplace_back(radius, height * (double(j) / along - 0.5));
+  for (int i = across - 1; i >= 1; --i) profile.emplace_back(radius * i / across, height / 2);
+  TriangleSoup soup;
+  for (const auto& [r, z] : profile)
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2 * pi * i / around;
+      soup.positions.push_back({r * std::cos(angle), r * std::sin(angle), z});
+    }
+  const int rings = static_cast<int>(profile.size());
+  const auto at = [&](int i, int j) { return static_cast<Index>(j * around + i % around); };
+  for (int j = 0; j + 1 < rings; ++j)
+    for (int i = 0; i < around; ++i) add_quad(soup, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+  const Index bottom = static_cast<Index>(soup.positions.size()), top = bottom + 1;
+  soup.positions.push_back({0, 0, -height / 2});
+  soup.positions.push_back({0, 0, height / 2});
+  for (int i = 0; i < around; ++i) {
+    soup.triangles.push_back({bottom, at(i + 1, 0), at(i, 0)});
+    soup.triangles.push_back({top, at(i, rings - 1), at(i + 1, rings - 1)});
+  }
+  return finished(std::move(soup));
+}
+
 TriangleSoup make_torus(double major, double minor, int nu, int nv) {
   TriangleSoup soup;
   for (int i = 0; i < nu; ++i)

@@ -20,6 +20,10 @@ TriangleSoup make_sphere(int subdivisions, double radius = 1);
 /// two fans about a vertex on the axis.
 TriangleSoup make_cylinder(double radius, double height, int around, int along, bool capped = true);
 
+/// A closed can about the z axis from -height/2 to height/2, its ends of rings like its wall: `around` vertices a ring,
+/// `along` rings up the wall, `across` rings from the axis to the edge.
+TriangleSoup make_can(double radius, double height, int around, int along, int across);
+
 /// Torus about the z axis, `major` the radius of the centre circle, `minor` that of the tube; nu quads around the
 /// axis, nv around the tube.
 TriangleSoup make_torus(double major, double minor, int nu, int nv);

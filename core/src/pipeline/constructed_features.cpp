@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/errors.h"
@@ -121,12 +122,19 @@ Box principal_box(std::span<const Vec3> points) {
   return box;
 }
 
+/// A fit with a number that is none would poison every relation it enters.
+bool finite(const FittedShape& shape) {
+  const double numbers[] = {shape.rms,          shape.explained,   shape.unexplained,     shape.coverage,
+                            shape.direction_sd, shape.centroid_sd, shape.direction.sum(), shape.centroid.sum()};
+  return std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::isfinite(x); });
+}
+
 enum class Fate : std::uint8_t { boxed_out, unusable, out_of_range, poor_fit, fitted };
 
 /// What becomes of a group for one feature, before (`shape` null) or after the fit.
 Fate fate_of(const ModelFeature& feature, const ShapeFitter& fitter, const ExpressionBoxes& boxes,
              const FittedShape* shape) {
-  if (shape && !shape->summary.usable()) return Fate::unusable;
+  if (shape && !(shape->summary.usable() && finite(*shape))) return Fate::unusable;
   for (const Range& range : feature.ranges) {
     const Bounds bounds = evaluate(range, boxes);
     if (!shape) {

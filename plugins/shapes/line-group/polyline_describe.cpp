@@ -81,7 +81,7 @@ void set_position(const Polyline& polyline, const Eigen::MatrixXd& covariance, F
   Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < v.size(); ++i)
     for (std::size_t j = 0; j < v.size(); ++j) mean += covariance.block<3, 3>(3 * i, 3 * j);
-  shape.centroid_sd = std::sqrt(mean.trace() / 3) / static_cast<double>(v.size());
+  shape.centroid_sd = std::sqrt(std::max(0.0, mean.trace() / 3)) / static_cast<double>(v.size());
 }
 
 void set_shape(const Polyline& polyline, const Eigen::MatrixXd& covariance, double mean_edge, FittedShape& shape) {

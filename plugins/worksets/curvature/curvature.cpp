@@ -47,7 +47,8 @@ class CurvatureWorkingSets final : public WorkingSetClassifier {
   void classify(const MeshView& mesh, Context& context, WorkingSetSink& sink) const override {
     std::vector<Type> type = vertex_types(mesh, context);
     std::vector<std::vector<Index>> regions = grow(mesh, type);
-    if (merge_small(mesh, regions, type)) regions = grow(mesh, type);
+    // Regions within regions: each round leaves fewer.
+    while (merge_small(mesh, regions, type)) regions = grow(mesh, type);
     for (const auto& region : regions) sink.add(types[type[region.front()]].name, region, 1);
   }
 
@@ -93,26 +94,28 @@ class CurvatureWorkingSets final : public WorkingSetClassifier {
   }
 
   /// "Small isolated regions that are imbedded in a larger region are then merged into the larger region": a small
-  /// region all of whose outer neighbours are of one type takes that type.
+  /// region with one larger region all around it takes that one's type.
   bool merge_small(const MeshView& mesh, const std::vector<std::vector<Index>>& regions,
                    std::vector<Type>& type) const {
     const double side = min_region_ * mesh.box.diagonal();
     const double vertex_area = surface_area(mesh) / mesh.vertex_count();
+    std::vector<Index> region_of(mesh.vertex_count(), 0);
+    for (Index r = 0; r < regions.size(); ++r)
+      for (Index v : regions[r]) region_of[v] = r;
     const std::vector<Type> before = type;
     bool changed = false;
-    for (const auto& region : regions) {
-      if (static_cast<double>(region.size()) * vertex_area >= side * side) continue;
-      const Type own = before[region.front()];
-      int around = -1;
+    for (Index r = 0; r < regions.size(); ++r) {
+      if (static_cast<double>(regions[r].size()) * vertex_area >= side * side) continue;
+      Index around = r;
       bool imbedded = true;
-      for (Index v : region)
+      for (Index v : regions[r])
         for (Index q : mesh.one_ring(v)) {
-          if (before[q] == own) continue;
-          if (around < 0) around = before[q];
-          imbedded = imbedded && around == before[q];
+          if (region_of[q] == r) continue;
+          if (around == r) around = region_of[q];
+          imbedded = imbedded && around == region_of[q];
         }
-      if (!imbedded || around < 0) continue;
-      for (Index v : region) type[v] = static_cast<Type>(around);
+      if (!imbedded || regions[around].size() <= regions[r].size()) continue;
+      for (Index v : regions[r]) type[v] = before[regions[around].front()];
       changed = true;
     }
     return changed;

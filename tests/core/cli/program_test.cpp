@@ -149,7 +149,7 @@ TEST_F(Program, BadMeshesAreRefusedAndTheOthersStillDone) {
 
 TEST_F(Program, BadUsageIsExplained) {
   const std::pair<std::string, const char*> bad[] = {
-      {"frobnicate", "frobnicate"},
+      {"frobnicate", "subcommand"},
       {"run " + mesh("cup"), "--model"},
       {"run " + mesh("cup") + " --model cpu", "cup"},
       {"run " + mesh("cup") + " --model cup --pipeline defautl", "default"},

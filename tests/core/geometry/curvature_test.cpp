@@ -30,8 +30,10 @@ TEST(TurningCurvature, OfASphereIsOneOverRadius) {
   RunContext context;
   const Mesh mesh(test::make_sphere(4), "sphere");
   const auto curvature = turning_curvature(mesh.view(), plane_fit_normals(mesh.view(), context), 2, context);
-  EXPECT_NEAR(median(curvature.maximum), 1, 0.02);
-  EXPECT_NEAR(median(curvature.minimum), 1, 0.02);
+  // The extremes over a neighbourhood: the estimate errs outwards, by the irregularity of the mesh.
+  EXPECT_NEAR(median(curvature.maximum), 1, 0.06);
+  EXPECT_NEAR(median(curvature.minimum), 1, 0.06);
+  EXPECT_GE(median(curvature.maximum), median(curvature.minimum));
 }
 
 TEST(TurningCurvature, ChangesSignWithTheSideAndScalesInversely) {

@@ -75,7 +75,7 @@ TEST(Concentric, ClutterDensityIsThatOfAxesInADisk) {
         closer += r <= offset - band;
         farther += r <= offset + band;
       }
-    EXPECT_NEAR(density, (farther - closer) / (2 * band * inside), 0.01);
+    EXPECT_NEAR(density * offset, (farther - closer) / (2 * band * inside), 0.01);
   }
 }
 

@@ -32,8 +32,8 @@ TEST(Plane, RecoversExactPlanes) {
     ASSERT_TRUE(fitted.summary.usable()) << fitted.summary.message;
     EXPECT_LT(error(fitted, shift, rotation.col(2)), 1e-9);
     EXPECT_EQ(fitted.unexplained, 0);
-    EXPECT_NEAR(fitted.explained, std::sqrt(std::sqrt(3.0) / 2 * 240), 1e-9);
-    EXPECT_NEAR(measure(fitted, "area").value, 4 * std::sqrt(3.0) / 2 * 240, 1e-6);
+    EXPECT_NEAR(fitted.explained, std::sqrt(240.0), 1e-9);
+    EXPECT_NEAR(measure(fitted, "area").value, 4.0 * 240, 1e-6);
     EXPECT_NEAR(measure(fitted, "extent").value, 2 * 19.5, 0.4);
   }
 }

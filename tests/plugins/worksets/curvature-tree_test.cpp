@@ -57,7 +57,7 @@ TEST(CurvatureTree, SetsAreComponentsOfAThreshold) {
 
 /// The two rims of a can: some convex set holds each of them and nothing else.
 TEST(CurvatureTree, OffersTheEdgesOfACylinder) {
-  const Mesh mesh(test::make_cylinder(1, 3, 64, 32), "cylinder");
+  const Mesh mesh(test::make_can(1, 3, 64, 30, 10), "can");
   const MeshView& view = mesh.view();
   const WorkingSets sets = classify(mesh);
   double top = -1e9, bottom = 1e9;

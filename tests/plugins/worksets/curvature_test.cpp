@@ -27,8 +27,9 @@ std::size_t count(const WorkingSets& sets, const std::string& type) {
 
 /// A closed can has two planar ends, one wall between the thresholds, two convex edges.
 TEST(CurvatureWorkingSets, OfACylinder) {
-  const Mesh mesh(test::make_cylinder(1, 3, 64, 32), "cylinder");
-  const WorkingSets sets = classify(mesh, {{"neighbourhood", "0"}, {"plane_threshold", "2"}, {"high_threshold", "6"}});
+  const Mesh mesh(test::make_can(1, 3, 64, 30, 10), "can");
+  const WorkingSets sets =
+      classify(mesh, {{"neighbourhood", "0"}, {"plane_threshold", "2"}, {"high_threshold", "10"}, {"smoothing", "0"}});
   EXPECT_EQ(count(sets, "planar"), 2u);
   EXPECT_EQ(count(sets, "convex"), 2u);
   EXPECT_EQ(count(sets, "other"), 1u);
