@@ -142,4 +142,12 @@ Box oriented_box(std::span<const Vec3> points) {
   return box;
 }
 
+double enclosing_diameter(std::span<const Box> boxes) {
+  Vec3 middle = Vec3::Zero();
+  for (const Box& box : boxes) middle += box.center / static_cast<double>(boxes.size());
+  double radius = 0;
+  for (const Box& box : boxes) radius = std::max(radius, (box.center - middle).norm() + box.diagonal() / 2);
+  return 2 * radius;
+}
+
 }  // namespace toposcope

@@ -25,6 +25,9 @@ PrincipalAxes principal_axes(std::span<const Vec3> points);
 /// and vertex order up to rounding. Flat and linear sets get sides of length 0.
 Box oriented_box(std::span<const Vec3> points);
 
+/// At least the greatest distance between two points of the boxes: the diagonal of a sphere around all of them.
+double enclosing_diameter(std::span<const Box> boxes);
+
 /// A vertex of a point set's convex hull: indices of the extreme points, ascending. Degenerate sets return all
 /// points that matter (at least the extremes).
 std::vector<Index> hull_vertices(std::span<const Vec3> points);

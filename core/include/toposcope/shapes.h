@@ -82,6 +82,7 @@ struct FitInput {
   std::span<const Vec3> points;        ///< the working sets' points, one set after the other
   std::span<const double> areas;       ///< the surface that each point stands for: a third of its triangles
   std::span<const Index> set_offsets;  ///< size sets + 1
+  std::span<const Box> set_boxes;      ///< one per set
   Box box;                             ///< bb(w): of all points
   Box object_box;                      ///< bb(O)
   double mean_edge = 0;
@@ -101,9 +102,12 @@ class ShapeFitter {
   virtual FittedShape fit(const FitInput& input, const Options& arguments, Context& context) const = 0;
   /// Distance from a point to a shape that this fitter made, mesh unit.
   virtual double distance(const FittedShape& shape, const Vec3& point) const = 0;
-  /// What the box of the points alone says of a measure, so that a group that cannot meet the model's ranges
+  /// What the boxes of the working sets alone say of a measure, so that a group that cannot meet the model's ranges
   /// is dropped before it is fitted. Must contain every value that `fit` could return.
-  virtual Interval bounds(std::string_view /*measure*/, const Box& /*points*/) const { return {}; }
+  virtual Interval bounds(std::string_view /*measure*/, std::span<const Box> /*sets*/,
+                          const Options& /*arguments*/) const {
+    return {};
+  }
 };
 
 }  // namespace toposcope

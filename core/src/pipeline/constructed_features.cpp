@@ -131,23 +131,28 @@ bool finite(const FittedShape& shape) {
 
 enum class Fate : std::uint8_t { boxed_out, unusable, out_of_range, poor_fit, fitted };
 
-/// What becomes of a group for one feature, before (`shape` null) or after the fit.
-Fate fate_of(const ModelFeature& feature, const ShapeFitter& fitter, const ExpressionBoxes& boxes,
-             const FittedShape* shape) {
-  if (shape && !(shape->summary.usable() && finite(*shape))) return Fate::unusable;
+/// What becomes of a group for one feature, as far as boxes tell.
+Fate fate_before(const ModelFeature& feature, const FitJob& job, const ExpressionBoxes& boxes,
+                 std::span<const Box> set_boxes) {
   for (const Range& range : feature.ranges) {
     const Bounds bounds = evaluate(range, boxes);
-    if (!shape) {
-      const Interval possible = fitter.bounds(range.measure, boxes.worksets);
-      if (possible.high <= bounds.low || possible.low >= bounds.high) return Fate::boxed_out;
-      continue;
-    }
-    const auto measure = std::find_if(shape->measures.begin(), shape->measures.end(),
+    const Interval possible = job.fitter->bounds(range.measure, set_boxes, Options(*job.arguments));
+    if (possible.high <= bounds.low || possible.low >= bounds.high) return Fate::boxed_out;
+  }
+  return Fate::fitted;
+}
+
+/// The same once it is fitted.
+Fate fate_after(const ModelFeature& feature, const ExpressionBoxes& boxes, const FittedShape& shape) {
+  if (!shape.summary.usable() || !finite(shape)) return Fate::unusable;
+  for (const Range& range : feature.ranges) {
+    const Bounds bounds = evaluate(range, boxes);
+    const auto measure = std::find_if(shape.measures.begin(), shape.measures.end(),
                                       [&](const Measure& m) { return m.name == range.measure; });
-    if (measure == shape->measures.end() || !(measure->value > bounds.low && measure->value < bounds.high))
+    if (measure == shape.measures.end() || !(measure->value > bounds.low && measure->value < bounds.high))
       return Fate::out_of_range;
   }
-  if (shape && feature.max_fit_error && shape->rms > feature.max_fit_error->evaluate(boxes)) return Fate::poor_fit;
+  if (feature.max_fit_error && shape.rms > feature.max_fit_error->evaluate(boxes)) return Fate::poor_fit;
   return Fate::fitted;
 }
 
@@ -197,30 +202,34 @@ JobResult run_job(const FitJob& job, const GroupEnumerator& groups, const MeshVi
   result.shapes.resize(groups.size());
   result.boxes.resize(groups.size());
   result.fates.assign(job.features.size(), std::vector<Fate>(groups.size(), Fate::boxed_out));
-  const bool exact_box = groups.arity() == 1 || std::any_of(job.features.begin(), job.features.end(), [&](Index f) {
-                           return uses_working_set_box(model.features[f]);
-                         });
+  const bool needs_box = std::any_of(job.features.begin(), job.features.end(),
+                                     [&](Index f) { return uses_working_set_box(model.features[f]); });
   context.parallel_for(groups.size(), grain, [&](std::size_t first, std::size_t last) {
     GroupPoints at;
+    std::vector<Box> boxes_of_group;
     for (std::size_t g = first; g < last && !context.cancelled(); ++g) {
       const std::span<const Index> group = groups[g];
-      at.gather(mesh, vertex_areas, sets, group);
-      result.boxes[g] = group.size() == 1 ? set_boxes[group[0]]
-                        : exact_box       ? oriented_box(at.points)
-                                          : principal_box(at.points);
-      const ExpressionBoxes boxes{mesh.box, result.boxes[g]};
+      boxes_of_group.clear();
+      for (Index s : group) boxes_of_group.push_back(set_boxes[s]);
+      Box& box = result.boxes[g] = boxes_of_group.front();
+      const bool joint_box = group.size() > 1 && needs_box;
+      if (joint_box) {
+        at.gather(mesh, vertex_areas, sets, group);
+        box = oriented_box(at.points);
+      }
       bool wanted = false;
       for (std::size_t i = 0; i < job.features.size(); ++i) {
-        result.fates[i][g] =
-            exact_box ? fate_of(model.features[job.features[i]], *job.fitter, boxes, nullptr) : Fate::fitted;
+        result.fates[i][g] = fate_before(model.features[job.features[i]], job, {mesh.box, box}, boxes_of_group);
         wanted = wanted || result.fates[i][g] == Fate::fitted;
       }
       if (!wanted) continue;
-      const FitInput input{at.points, at.areas, at.offsets, result.boxes[g], mesh.box, mesh.mean_edge};
+      if (!joint_box) at.gather(mesh, vertex_areas, sets, group);
+      if (!joint_box && group.size() > 1) box = principal_box(at.points);
+      const FitInput input{at.points, at.areas, at.offsets, boxes_of_group, box, mesh.box, mesh.mean_edge};
       result.shapes[g] = job.fitter->fit(input, Options(*job.arguments), context);
       for (std::size_t i = 0; i < job.features.size(); ++i)
         if (Fate& fate = result.fates[i][g]; fate == Fate::fitted)
-          fate = fate_of(model.features[job.features[i]], *job.fitter, boxes, &result.shapes[g]);
+          fate = fate_after(model.features[job.features[i]], {mesh.box, box}, result.shapes[g]);
     }
   });
   return result;

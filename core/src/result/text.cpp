@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "io/mesh_io.h"
 #include "result/result.h"
 
@@ -11,6 +13,11 @@ namespace {
 constexpr Rgb no_label = {210, 210, 210};
 constexpr Rgb palette[] = {{0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {230, 159, 0},
                            {0, 114, 178}, {213, 94, 0},    {240, 228, 66}, {90, 90, 90}};
+
+/// The dissertation's ranking of labellings makes no probabilities.
+std::string probability(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.3f}", value);
+}
 
 std::string value_of(const FeatureReport& report) {
   std::string text;
@@ -33,12 +40,12 @@ std::string to_text(const Result& result) {
                       "fit error", "faces");
   for (const FeatureReport& report : result.features) {
     if (report.present)
-      text +=
-          fmt::format("  {:<14}{:<9}{:<6.3f}  {:<11}{:<44} {:>9.3g} {:>6}\n", report.name, "found", report.probability,
-                      report.shape_plugin, value_of(report), report.shape.rms, report.faces.size());
+      text += fmt::format("  {:<14}{:<9}{:<6}  {:<11}{:<44} {:>9.3g} {:>6}\n", report.name, "found",
+                          probability(report.probability), report.shape_plugin, value_of(report), report.shape.rms,
+                          report.faces.size());
     else
-      text +=
-          fmt::format("  {:<14}{:<9}{:<6.3f}  {}\n", report.name, "missing", report.probability, report.missing.reason);
+      text += fmt::format("  {:<14}{:<9}{:<6}  {}\n", report.name, "missing", probability(report.probability),
+                          report.missing.reason);
     for (const RelationReport& failed : report.missing.failed)
       text += failed.applicable ? fmt::format("  {:<31}{} {}: residual {:.4g} {}, tolerance {:.3g}\n", "", failed.name,
                                               failed.type, failed.residual, failed.unit, failed.tolerance)

@@ -145,9 +145,9 @@ class CircleFitter final : public ShapeFitter {
   }
 
   /// The least radius stays open: the points that a robust fit leaves out may lie anywhere in the box.
-  Interval bounds(std::string_view measure, const Box& points) const override {
+  Interval bounds(std::string_view measure, std::span<const Box> sets, const Options&) const override {
     if (measure != "radius") return {};
-    return {0, radius_limit_diagonals * points.diagonal()};
+    return {0, radius_limit_diagonals * enclosing_diameter(sets)};
   }
 
  private:

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t fit_points = 400;
 constexpr double longest_segment_diagonals = 1.5;
-constexpr int most_segments = 16;
 
 /// Why the points or arguments determine no line group, or nothing.
 std::string obstacle(const FitInput& input, int segments, bool closed, bool centroids) {
@@ -83,10 +82,19 @@ class LineGroupFitter final : public ShapeFitter {
     return least;
   }
 
-  /// A longer segment is refused as one that has run away from its points; the number of segments is not known here.
-  Interval bounds(std::string_view measure, const Box& points) const override {
-    const double segment = longest_segment_diagonals * points.diagonal() * (1 + 1e-9);
-    return {0, measure == "length" ? most_segments * segment : segment};
+  /// A longer segment is refused as one that has run away from its points.
+  Interval bounds(std::string_view measure, std::span<const Box> sets, const Options& arguments) const override {
+    if (arguments.text("ends") == "centroids" && sets.size() >= 2) {
+      const Ends ends(sets.front(), sets.back());
+      if (measure == "end_size") return {ends.size, ends.size};
+      if (measure == "end_depth") return {ends.depth, ends.depth};
+      // A centroid lies within its box.
+      const double apart = (sets.back().center - sets.front().center).norm();
+      const double reach = (sets.front().diagonal() + sets.back().diagonal()) / 2 * (1 + 1e-9);
+      return {apart - reach, apart + reach};
+    }
+    const double segment = longest_segment_diagonals * enclosing_diameter(sets) * (1 + 1e-9);
+    return {0, measure == "length" ? arguments.integer("segments") * segment : segment};
   }
 
  private:
@@ -106,10 +114,11 @@ constexpr OptionSpec arguments[] = {
     {"ends", OptionType::text, "", "extent", "extent|centroids", "",
      "one segment ends where the points end, or at the centroids of the first and the last working set"},
 };
-constexpr ProvidedName measures[] = {{"length_#", 1, "length of segment #, from 1"},
-                                     {"length", 1, "sum of the segments' lengths"},
-                                     {"end_size", 1, "ends: centroids: the larger end's extent, that of a uniform bar"},
-                                     {"end_depth", 0, "ends: centroids: least of the ends' thickness over extent"}};
+constexpr ProvidedName measures[] = {
+    {"length_#", 1, "length of segment #, from 1"},
+    {"length", 1, "sum of the segments' lengths"},
+    {"end_size", 1, "ends: centroids: longest side of the two ends' boxes"},
+    {"end_depth", 0, "ends: centroids: least of the ends' shortest over longest side"}};
 
 }  // namespace
 }  // namespace toposcope::line_group

@@ -79,4 +79,11 @@ void describe(const Polyline& polyline, const FitInput& input, double reach, Fit
 /// Segment between the centroids of the first and the last working set (dissertation 3.4.1, Figure 3.5).
 void describe_centroids(const FitInput& input, FittedShape& shape);
 
+/// What the boxes of the first and the last working set say of a segment between their centroids.
+struct Ends {
+  Ends(const Box& first, const Box& last);
+  double size;   ///< longest side of the two
+  double depth;  ///< the lesser of their ratios of shortest to longest side
+};
+
 }  // namespace toposcope::line_group

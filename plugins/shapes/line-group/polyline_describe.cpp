@@ -212,14 +212,12 @@ void describe_centroids(const FitInput& input, FittedShape& shape) {
           ends[end]->variance[axis] / std::sqrt(static_cast<double>(sizes[end])) * direction * direction.transpose();
     }
   set_shape(polyline, covariance, input.mean_edge, shape);
-  // Along the principal axes: the ends are small, and there are many pairs of them.
-  double size = 0, depth = 1;
-  for (const PrincipalAxes* end : ends) {
-    size = std::max(size, std::sqrt(12 * end->variance[0]));
-    depth = std::min(depth, std::sqrt(end->variance[2] / end->variance[0]));
-  }
-  shape.measures.push_back({"end_size", size, input.mean_edge});
-  shape.measures.push_back({"end_depth", depth, 0});
+  const Ends measured(input.set_boxes.front(), input.set_boxes.back());
+  shape.measures.push_back({"end_size", measured.size, input.mean_edge});
+  shape.measures.push_back({"end_depth", measured.depth, 0});
 }
+
+Ends::Ends(const Box& first, const Box& last)
+    : size(std::max(first.a(), last.a())), depth(std::min(first.c() / first.a(), last.c() / last.a())) {}
 
 }  // namespace toposcope::line_group

@@ -187,9 +187,9 @@ class PlaneFitter final : public ShapeFitter {
     return std::abs(height({Vec3(shape.parameters[0].values.data()), Vec3(shape.parameters[1].values.data())}, point));
   }
 
-  Interval bounds(std::string_view measure, const Box& points) const override {
+  Interval bounds(std::string_view measure, std::span<const Box> sets, const Options&) const override {
     if (measure != "extent") return {0, std::numeric_limits<double>::infinity()};
-    return {0, points.diagonal() * (1 + 1e-9)};  // no two points are farther apart than the box is wide
+    return {0, enclosing_diameter(sets) * (1 + 1e-9)};  // no two points are farther apart than the box is wide
   }
 
  private:

@@ -228,7 +228,7 @@ TEST(Circle, BoundsContainTheFitAndOutlineLiesOnIt) {
     const PointSets sets = arc(5, 40, 0.3 + 6 * random.uniform(), 0.3 * random.uniform(), seed);
     const FittedShape fitted = fit(*fitter, sets);
     if (!fitted.summary.usable()) continue;
-    const Interval range = fitter->bounds("radius", oriented_box(sets.points));
+    const Interval range = bounds(*fitter, "radius", sets);
     EXPECT_LE(range.low, measure(fitted, "radius").value);
     EXPECT_GE(range.high, measure(fitted, "radius").value);
     for (const Vec3& point : fitted.outline)

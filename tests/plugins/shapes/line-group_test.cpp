@@ -190,6 +190,13 @@ TEST(LineGroup, SegmentBetweenCentroidsOfTheSets) {
   EXPECT_EQ(fitted.coverage, 1);
   EXPECT_NEAR(fitted.rms, 0.5 * std::sqrt(2.5), 0.15);  // two components across, half of the points beyond an end
   EXPECT_GT(fitted.direction_sd, 0);
+  for (const Measure& m : fitted.measures) {
+    const Interval range = bounds(*shape("line-group"), m.name, sets, line_group(1, false, "centroids").options());
+    EXPECT_LE(range.low, m.value) << m.name;
+    EXPECT_GE(range.high, m.value) << m.name;
+  }
+  EXPECT_LT(measure(fitted, "end_size").value, 6 * 0.5 * 2);
+  EXPECT_GT(measure(fitted, "end_depth").value, 0.2) << "a ball is as deep as it is long";
   const FittedShape one = fit(*shape("line-group"), {sets.points, 1, {}}, line_group(1, false, "centroids").options());
   EXPECT_EQ(one.summary.termination, Termination::degenerate);
   EXPECT_NE(one.summary.message.find("two working sets"), std::string::npos);
@@ -290,7 +297,7 @@ TEST(LineGroup, BoundsContainTheFitAndOutlineLiesOnIt) {
     const FittedShape fitted = fit(*fitter, sets, line_group(static_cast<int>(corners.size()) - 1).options());
     ASSERT_TRUE(fitted.summary.usable()) << name;
     for (const Measure& m : fitted.measures) {
-      const Interval range = fitter->bounds(m.name, oriented_box(sets.points));
+      const Interval range = bounds(*fitter, m.name, sets, line_group(static_cast<int>(corners.size()) - 1).options());
       EXPECT_LE(range.low, m.value);
       EXPECT_GE(range.high, m.value);
     }

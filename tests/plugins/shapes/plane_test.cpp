@@ -129,8 +129,8 @@ TEST(Plane, DistanceBoundsAndOutline) {
   const PointSets sets = transformed(patch(20, 10), rotation, 1, Vec3(1, 2, 3));
   const FittedShape fitted = fit(*fitter, sets);
   EXPECT_NEAR(fitter->distance(fitted, rotation * Vec3(50, -3, -4) + Vec3(1, 2, 3)), 4, 1e-9);
-  EXPECT_GE(fitter->bounds("extent", oriented_box(sets.points)).high, measure(fitted, "extent").value);
-  EXPECT_LE(fitter->bounds("extent", oriented_box(sets.points)).low, measure(fitted, "extent").value);
+  EXPECT_GE(bounds(*fitter, "extent", sets).high, measure(fitted, "extent").value);
+  EXPECT_LE(bounds(*fitter, "extent", sets).low, measure(fitted, "extent").value);
   ASSERT_GT(fitted.outline.size(), 40U);
   EXPECT_LE(fitted.outline.size(), 512U);
   for (const Vec3& point : fitted.outline) EXPECT_NEAR(fitter->distance(fitted, point), 0, 1e-9);

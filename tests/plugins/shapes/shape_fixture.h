@@ -42,13 +42,33 @@ struct PointSets {
   std::vector<Index> offsets;  ///< empty: one set
 };
 
+inline std::vector<Index> offsets_of(const PointSets& sets) {
+  if (!sets.offsets.empty()) return sets.offsets;
+  return {0, static_cast<Index>(sets.points.size())};
+}
+
+inline std::vector<Box> set_boxes(const PointSets& sets) {
+  const std::vector<Index> offsets = offsets_of(sets);
+  std::vector<Box> boxes;
+  for (std::size_t k = 0; k + 1 < offsets.size(); ++k) {
+    const auto set = std::span(sets.points).subspan(offsets[k], offsets[k + 1] - offsets[k]);
+    boxes.push_back(set.empty() ? Box{} : oriented_box(set));
+  }
+  return boxes;
+}
+
+inline Interval bounds(const ShapeFitter& fitter, std::string_view measure, const PointSets& sets,
+                       const Options& arguments = {}) {
+  return fitter.bounds(measure, set_boxes(sets), arguments);
+}
+
 inline FittedShape fit(const ShapeFitter& fitter, const PointSets& sets, const Options& arguments = {}) {
-  std::vector<Index> offsets = sets.offsets;
-  if (offsets.empty()) offsets = {0, static_cast<Index>(sets.points.size())};
+  const std::vector<Index> offsets = offsets_of(sets);
+  const std::vector<Box> boxes = set_boxes(sets);
   const Box box = sets.points.empty() ? Box{} : oriented_box(sets.points);
   // Each point stands for a square of a mean edge.
   const std::vector<double> areas(sets.points.size(), sets.mean_edge * sets.mean_edge);
-  return fitter.fit({sets.points, areas, offsets, box, box, sets.mean_edge}, arguments, context());
+  return fitter.fit({sets.points, areas, offsets, boxes, box, box, sets.mean_edge}, arguments, context());
 }
 
 inline PointSets transformed(PointSets sets, const Eigen::Matrix3d& rotation, double scale, const Vec3& shift) {
