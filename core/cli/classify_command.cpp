@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include "base/errors.h"
 #include "commands.h"
 #include "io/mesh_io.h"
 #include "model/read_model.h"
@@ -16,6 +17,10 @@ int classify(const ClassifyOptions& options) {
   std::vector<Stations> stations;
   for (const fs::path& file : find_models(options.models)) {
     models.push_back(read_model(file, &session.host().catalog()));
+    for (std::size_t m = 0; m + 1 < models.size(); ++m)
+      if (models[m].name == models.back().name)
+        throw UsageError(models[m].file + " and " + models.back().file + " are both named '" + models.back().name +
+                         "': their classes could not be told apart; name one of them");
     stations.push_back(session.stations(models.back()));
   }
   return for_each_mesh(options.meshes, session, [&](const fs::path& path) {

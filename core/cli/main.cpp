@@ -14,15 +14,19 @@ namespace {
 using namespace toposcope::cli;
 
 void add_plugin_dirs(CLI::App* app, std::vector<fs::path>& dirs) {
-  app->add_option("--plugin-dir", dirs, "further folders with plugins")->type_name("DIR");
+  app->add_option("--plugin-dir", dirs, "further folders with plugins")->type_name("DIR")->allow_extra_args(false);
 }
 
 void add_common(CLI::App* app, CommonOptions& options) {
   add_plugin_dirs(app, options.plugin_dirs);
   app->add_option("--pipeline", options.pipeline, "name or file of the pipeline")->capture_default_str();
   app->add_option("--labeler", options.labeler, "labeler to use instead of the pipeline's")->type_name("ID");
-  app->add_option("--set", options.overrides, "override one value: station.option=value")->type_name("S.O=V");
-  app->add_option("--threads", options.threads, "threads; 0: one per processor")->capture_default_str();
+  app->add_option("--set", options.overrides, "override one value: station.option=value")
+      ->type_name("S.O=V")
+      ->allow_extra_args(false);
+  app->add_option("--threads", options.threads, "threads; 0: one per processor")
+      ->check(CLI::Range(0U, 1024U))
+      ->capture_default_str();
   app->add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
   app->add_flag("-q,--quiet", options.quiet, "errors only");
   app->add_flag("-v,--verbose", options.verbose, "say more");
@@ -67,9 +71,11 @@ int dispatch(int argc, char** argv) {
   sample_app->add_option("--noise", sample_options.noise, "sd of the noise along the normal, part of the diagonal")
       ->capture_default_str();
   std::vector<std::string> assignments;
-  sample_app->add_option("--set", assignments, "one parameter: name=value")->type_name("P=V");
+  sample_app->add_option("--set", assignments, "one parameter: name=value")->type_name("P=V")->allow_extra_args(false);
   sample_app->add_option("--seed", sample_options.seed, "seed of the noise")->capture_default_str();
-  sample_app->add_option("--threads", sample_options.threads, "threads; 0: one per processor")->capture_default_str();
+  sample_app->add_option("--threads", sample_options.threads, "threads; 0: one per processor")
+      ->check(CLI::Range(0U, 1024U))
+      ->capture_default_str();
   sample_app->callback([&] {
     for (const std::string& assignment : assignments) {
       const std::size_t equals = assignment.find('=');
@@ -123,7 +129,12 @@ int dispatch(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return dispatch(argc, argv);
+    const int code = dispatch(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+      std::fprintf(stderr, "toposcope: the output could not be written; is the disk full?\n");
+      return 1;
+    }
+    return code;
   } catch (const toposcope::Error& error) {
     std::fprintf(stderr, "toposcope: %s\n", error.what());
     return error.exit_code;

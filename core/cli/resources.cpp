@@ -58,13 +58,13 @@ fs::path find_resource(const std::string& kind, const std::string& name) {
   std::sort(known.begin(), known.end());
   std::string message = "no " + one + " '" + name + "'";
   if (const std::string near = nearest_name(name, known); !near.empty()) message += "; did you mean '" + near + "'?";
-  message += " There are:";
+  if (!known.empty()) message += "; there are:";
   for (const std::string& each : known) message += " " + each;
   throw UsageError(message + "; or give a file that ends in .yaml");
 }
 
 std::vector<fs::path> find_models(const std::string& folder_or_list) {
-  if (fs::is_directory(folder_or_list)) {
+  if (folder_or_list.find('/') != std::string::npos && fs::is_directory(folder_or_list)) {
     const std::vector<fs::path> files = yaml_files(folder_or_list);
     if (files.empty()) throw UsageError(folder_or_list + ": no .yaml file in this folder; give a folder of models");
     return files;

@@ -7,14 +7,14 @@
 
 namespace toposcope::cli {
 
-/// A model or pipeline by file (anything with a '/' or ending in .yaml) or by name: `cup`, `neal-1999/cup`. Names are
+/// A model or pipeline by file (ending in .yaml or .yml) or by name: `cup`, `neal-1999/cup`. Names are
 /// looked up beside the executable (<folder>/../<kind>), in the install prefix (<folder>/../share/toposcope/<kind>)
 /// and in the folders of TOPOSCOPE_DATA_PATH (separated by ':'); never in the working directory.
 /// \param kind  "models" or "pipelines"
 /// \throw UsageError  not found, with what there is
 std::filesystem::path find_resource(const std::string& kind, const std::string& name);
 
-/// The models of a folder, or of a list of names separated by commas.
+/// The models of a folder (with a '/' in its name), or of a list of names separated by commas.
 std::vector<std::filesystem::path> find_models(const std::string& folder_or_list);
 
 }  // namespace toposcope::cli

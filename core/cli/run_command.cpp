@@ -24,10 +24,20 @@ void refuse_same_stem(const std::vector<fs::path>& meshes) {
                        "': their results would have the same folder below --out; run them apart");
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder))
+    throw UsageError(folder.string() + ": cannot make this folder; name another with --out");
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
-  if (!options.out.empty()) refuse_same_stem(options.meshes);
+  if (!options.out.empty()) {
+    refuse_same_stem(options.meshes);
+    make_folder(options.out);
+  }
   Session session(options);
   const Model model = read_model(find_resource("models", options.model), &session.host().catalog());
   const Stations stations = session.stations(model);
@@ -41,9 +51,7 @@ int run(const RunOptions& options) {
     result.timings.insert(result.timings.begin(), {"read", read_ms});
     if (!options.out.empty()) {
       const fs::path folder = options.out / path.stem();
-      std::error_code error;
-      fs::create_directories(folder, error);
-      if (error) throw UsageError(folder.string() + ": cannot make this folder: " + error.message());
+      make_folder(folder);
       write_labels(folder / "labels.ply", mesh, result);
       write_file(folder / "result.json", to_json(result));
     }

@@ -93,13 +93,14 @@ int for_each_mesh(const std::vector<fs::path>& meshes, Session& session,
     session.status(mesh.string());
     try {
       body(mesh);
-    } catch (const MeshError& error) {
+    } catch (const Error& error) {
+      if (session.context().cancelled()) throw;
       session.status("");
       fmt::print(stderr, "toposcope: {}\n", error.what());
       if (code == 0) code = error.exit_code;
     }
     session.status("");
-    if (session.context().cancelled()) throw UsageError("interrupted");
+    if (session.context().cancelled()) throw Error("interrupted", interrupted_exit_code);
   }
   return code;
 }

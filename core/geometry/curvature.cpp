@@ -49,16 +49,24 @@ Curvature turning_curvature(const MeshView& mesh, const std::vector<Vec3>& norma
   Curvature curvature;
   curvature.maximum.resize(mesh.vertex_count());
   curvature.minimum.resize(mesh.vertex_count());
-  context.parallel_for(mesh.vertex_count(), grain, [&](std::size_t first, std::size_t last) {
-    std::vector<Index> reached;  // breadth first from the vertex; small, so that a linear search is fastest
+  // Few chunks: each has a mark per vertex of the mesh.
+  const std::size_t chunk = std::max<std::size_t>(grain, mesh.vertex_count() / 16);
+  context.parallel_for(mesh.vertex_count(), chunk, [&](std::size_t first, std::size_t last) {
+    std::vector<Index> reached;  // breadth first from the vertex
+    std::vector<Index> reached_from(mesh.vertex_count(), std::numeric_limits<Index>::max());
     for (Index p = static_cast<Index>(first); p < last; ++p) {
+      if (context.cancelled()) return;
       reached.assign(1, p);
+      reached_from[p] = p;
       std::size_t ring_begin = 0;
       for (int ring = 0; ring < rings; ++ring) {
         const std::size_t ring_end = reached.size();
         for (std::size_t i = ring_begin; i < ring_end; ++i)
           for (Index q : mesh.one_ring(reached[i]))
-            if (std::find(reached.begin(), reached.end(), q) == reached.end()) reached.push_back(q);
+            if (reached_from[q] != p) {
+              reached_from[q] = p;
+              reached.push_back(q);
+            }
         ring_begin = ring_end;
       }
       double largest = -std::numeric_limits<double>::infinity();

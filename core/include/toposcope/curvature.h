@@ -19,8 +19,8 @@ struct Curvature {
 std::vector<Vec3> plane_fit_normals(const MeshView& mesh, Context& context);
 
 /// The extreme turnings of the normal from each vertex p to the vertices q within `rings` edges:
-/// |n_p - n_q| / |p - q|, positive where (n_p - n_q) . (p - q) >= 0 (Itter and Jain, dissertation 4.2; the sign as in
-/// design, section 3: the dissertation's own test depends on the unit of length).
+/// |n_p - n_q| / |p - q|, positive where (n_p - n_q) . (p - q) >= 0 (Itter and Jain, dissertation 4.2; the sign: the
+/// dissertation's own test depends on the unit of length).
 /// Overestimates on coarse meshes, since |p - q| is the chord.
 Curvature turning_curvature(const MeshView& mesh, const std::vector<Vec3>& normals, int rings, Context& context);
 

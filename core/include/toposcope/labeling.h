@@ -49,7 +49,7 @@ struct LabelingProblem {
 
 struct LabelingRequest {
   std::size_t k_best = 10;
-  double time_limit_s = 60;
+  double time_limit_s = 10;
 };
 
 struct Labeling {

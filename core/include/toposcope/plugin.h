@@ -73,6 +73,7 @@ struct PluginDescriptor {
   const char* unit;           ///< relations: unit of the residual, "deg" or "length"; else ""
   std::uint32_t min_arity;    ///< shapes: working sets per feature; relations: features; else 0
   std::uint32_t max_arity;    ///< 0: no upper bound
+  std::uint32_t ordered;      ///< relations: 1 where it matters which feature comes first, else 0
   const OptionSpec* options;  ///< set in the pipeline
   std::size_t option_count;
   const OptionSpec* arguments;  ///< set in the model: `segments` of a line group, `max` of a distance
@@ -134,6 +135,7 @@ struct PluginInfo {
   const char* unit = "";
   std::uint32_t min_arity = 0;
   std::uint32_t max_arity = 0;
+  bool ordered = false;
   std::span<const OptionSpec> options = {};
   std::span<const OptionSpec> arguments = {};
   std::span<const ProvidedName> provides = {};
@@ -153,6 +155,7 @@ PluginDescriptor describe(const PluginInfo& info) {
           info.unit,
           info.min_arity,
           info.max_arity,
+          info.ordered ? 1U : 0U,
           info.options.data(),
           info.options.size(),
           info.arguments.data(),

@@ -14,6 +14,9 @@ class Error : public std::runtime_error {
   int exit_code;
 };
 
+/// What a shell reports of a program that Ctrl-C ended.
+inline constexpr int interrupted_exit_code = 130;
+
 /// Bad usage, bad model, bad pipeline: exit code 2.
 struct UsageError : Error {
   explicit UsageError(const std::string& message) : Error(message, 2) {}

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "base/errors.h"
 #include "model/expression_program.h"
 
 namespace toposcope {
@@ -90,6 +92,14 @@ std::string dimension_in_words(int dimension) {
     default:
       return "a length to the power " + std::to_string(dimension);
   }
+}
+
+double positive_on_mesh(const Expression& expression, const ExpressionBoxes& boxes, const SourceLocation& where,
+                        const std::string& what) {
+  const double value = expression.evaluate(boxes);
+  if (value > 0 && std::isfinite(value)) return value;
+  throw UsageError(where.str() + ": " + what + " '" + expression.text() + "' is " + std::to_string(value) +
+                   " on this mesh; it must be positive");
 }
 
 }  // namespace toposcope

@@ -38,6 +38,10 @@ class Expression {
   friend struct ExpressionParser;
 };
 
+/// The value of an expression that must be positive, such as a tolerance. \throw UsageError  it is not, on this mesh
+double positive_on_mesh(const Expression& expression, const ExpressionBoxes& boxes, const SourceLocation& where,
+                        const std::string& what);
+
 /// `low < r < high` with one free name, which stands for the measure; either bound may be absent (`r < high`,
 /// `low < r`); > is accepted. `<=` equals `<`: the bounds are floating-point.
 struct ParsedRange {

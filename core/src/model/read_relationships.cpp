@@ -34,9 +34,11 @@ void read_argument(const YAML::Node& name, const YAML::Node& node, const PluginM
   if (relation) {
     for (const OptionRow& candidate : relation->arguments)
       if (candidate.name == name.Scalar()) row = &candidate;
+    std::vector<std::string> known = names_of(relation->arguments);
+    known.push_back("tolerance");  // which every relationship takes
     if (!row)
-      return reading.add(name, owner + " has no argument '" + name.Scalar() + "'; " +
-                                   name_remedy(name.Scalar(), names_of(relation->arguments)));
+      return reading.add(name,
+                         owner + " has no argument '" + name.Scalar() + "'; " + name_remedy(name.Scalar(), known));
   }
   std::string text = node.Scalar();
   const bool is_boolean = text == "true" || text == "false";

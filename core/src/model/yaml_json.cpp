@@ -50,10 +50,18 @@ class Converter {
     }
     if (node.IsMap()) return convert_map(node);
     if (node.IsSequence()) return convert_sequence(node);
-    return node.IsScalar() ? scalar_to_json(node) : nlohmann::json(nullptr);
+    if (!node.IsScalar()) return nullptr;
+    if (node.Scalar().size() > max_length) {
+      errors_.add(location_of(node, file_), "a value of " + std::to_string(node.Scalar().size()) +
+                                                " characters; at most " + std::to_string(max_length) +
+                                                " make sense here");
+      return nullptr;
+    }
+    return scalar_to_json(node);
   }
 
  private:
+  static constexpr std::size_t max_length = 2000;  // the schema's patterns are matched by recursion
   static constexpr std::size_t max_nodes = 100000;
   static constexpr std::size_t max_depth = 32;
 
@@ -65,6 +73,11 @@ class Converter {
         continue;
       }
       const std::string& key = entry.first.Scalar();
+      if (key.size() > max_length) {
+        errors_.add(location_of(entry.first, file_),
+                    "a key of " + std::to_string(key.size()) + " characters; shorten it");
+        continue;
+      }
       const SourceLocation where = location_of(entry.first, file_);
       path_.push_back(key);
       if (const auto [first, is_new] = result_.keys.emplace(path_, where); !is_new) {

@@ -77,8 +77,7 @@ std::vector<std::vector<Index>> one_side(const ClassOutcome& solved, const std::
       bool own = true;
       if (value > 0 && best[v] > 0)
         for (Index w = 0; w < best.size(); ++w) {
-          const auto& orbit = orbits[solved.features[v]];
-          if (w == v || best[w] == 0 || !std::binary_search(orbit.begin(), orbit.end(), solved.features[w])) continue;
+          if (w == v || best[w] == 0 || !std::binary_search(orbits[v].begin(), orbits[v].end(), w)) continue;
           const Vec3& at = centroid_of(v, value);
           own = own && (at - centroid_of(v, best[v])).squaredNorm() <= (at - centroid_of(w, best[w])).squaredNorm();
         }
@@ -87,15 +86,17 @@ std::vector<std::vector<Index>> one_side(const ClassOutcome& solved, const std::
   return kept;
 }
 
-ClassOutcome solve(ClassOutcome posed, const std::vector<std::vector<Index>>& orbits,
-                   const ConstructedFeatures& features, const Stations& stations, const LabelingRequest& request,
-                   Context& context) {
+ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeatures& features,
+                   const Stations& stations, const LabelingRequest& request, Context& context) {
   const auto run = [&] {
     posed.outcome =
         guard(stations.labeler_id, [&] { return stations.labeler->solve(posed.problem, request, context); });
     check_outcome(posed.problem, posed.outcome, stations.labeler_id);
   };
   run();
+  posed.log_evidence = posed.outcome.log_evidence;
+  const auto orbits = interchangeable_features(model, posed.features, posed.relationships, stations.relation_ordered,
+                                               model.classes.empty());
   const auto kept = one_side(posed, orbits, features);
   bool changed = false;
   for (Index v = 0; v < kept.size(); ++v) changed = changed || kept[v].size() < posed.problem.variables[v].domain();
@@ -113,7 +114,7 @@ ClassOutcome solve(ClassOutcome posed, const std::vector<std::vector<Index>>& or
 /// Probability of each class, and last of none, when all are equally likely beforehand.
 std::vector<double> class_probabilities(const std::vector<ClassOutcome>& classes) {
   std::vector<double> log_evidence;
-  for (const ClassOutcome& c : classes) log_evidence.push_back(c.outcome.log_evidence);
+  for (const ClassOutcome& c : classes) log_evidence.push_back(c.log_evidence);
   log_evidence.push_back(0);  // everything is clutter
   const double top = *std::max_element(log_evidence.begin(), log_evidence.end());
   double sum = 0;
@@ -143,15 +144,14 @@ Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations,
   const LabelingProblem problem = build_problem(view, model, analysis.features, overlap, stations, context);
   lap("relate");
 
-  const auto orbits = interchangeable_features(model);
   for (ClassOutcome& posed : pose_classes(problem, model, stations.probability))
-    analysis.classes.push_back(solve(std::move(posed), orbits, analysis.features, stations, request, context));
+    analysis.classes.push_back(solve(std::move(posed), model, analysis.features, stations, request, context));
   analysis.class_probabilities = class_probabilities(analysis.classes);
   analysis.best = static_cast<std::size_t>(
       std::max_element(analysis.class_probabilities.begin(), analysis.class_probabilities.end() - 1) -
       analysis.class_probabilities.begin());
   lap("label");
-  if (context.cancelled()) throw UsageError("cancelled");
+  if (context.cancelled()) throw Error("interrupted", interrupted_exit_code);
   return analysis;
 }
 

@@ -29,7 +29,8 @@ struct ClassOutcome {
   std::vector<Index> relationships;  ///< model relationship of each constraint
   LabelingProblem problem;           ///< interchangeable features told apart by the best labelling
   LabelingOutcome outcome;
-  bool complete = false;  ///< every feature present, every relationship within tolerance
+  double log_evidence = 0;  ///< over all labellings, before interchangeable features are told apart
+  bool complete = false;    ///< every feature present, every relationship within tolerance
 };
 
 /// All that is learned of a mesh under a model, station by station.

@@ -57,7 +57,8 @@ class GroupEnumerator {
       for (Index s = 0; s < sets.size(); ++s)
         if (sets.type_names[sets.types[s]] == type) candidates.push_back(s);
     }
-    extend();
+    // A type without a set: no group at all.
+    if (std::none_of(of_type_.begin(), of_type_.end(), [](const auto& sets_of) { return sets_of.empty(); })) extend();
   }
   std::size_t arity() const { return of_type_.size(); }
   std::size_t size() const { return groups_.size() / of_type_.size(); }
@@ -258,7 +259,8 @@ void count(CandidateCount& count, std::span<const Fate> fates) {
 
 /// Half of the greatest error that the model allows is a typical one; where it says nothing, the pipeline does.
 double fit_error_sd(const ModelFeature& feature, const MeshView& mesh, const Box& worksets, const Stations& stations) {
-  if (feature.max_fit_error) return feature.max_fit_error->evaluate({mesh.box, worksets}) / 2;
+  if (feature.max_fit_error)
+    return positive_on_mesh(*feature.max_fit_error, {mesh.box, worksets}, feature.where, "max_fit_error") / 2;
   return stations.probability.fit_error_scale * mesh.mean_edge;
 }
 

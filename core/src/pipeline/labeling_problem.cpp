@@ -22,8 +22,29 @@ std::vector<OptionValue> relation_arguments(const MeshView& mesh, const Relation
     auto value = std::find_if(values.begin(), values.end(), [&](const OptionValue& v) { return v.name == name; });
     if (value == values.end()) value = values.insert(value, {name, 0, ""});
     value->number = expression.evaluate({mesh.box, Box{}});
+    if (!std::isfinite(value->number))
+      throw UsageError(relationship.where.str() + ": '" + name + ": " + expression.text() +
+                       "' is no number on this mesh; mind divisions by a box side of 0");
   }
+  // By convention of the relations that hold within a range.
+  const auto named = [&](const char* name) {
+    return std::find_if(values.begin(), values.end(), [&](const OptionValue& v) { return v.name == name; });
+  };
+  const auto low = named("min"), high = named("max");
+  if (low != values.end() && high != values.end() && low->number > high->number)
+    throw UsageError(relationship.where.str() + ": relationship '" + relationship.name + "' asks for at least " +
+                     std::to_string(low->number) + " and at most " + std::to_string(high->number) +
+                     " on this mesh; exchange min and max");
   return values;
+}
+
+/// What the costs are made of must be numbers.
+void check(const RelationResult& result) {
+  if (!result.applicable) return;
+  const bool sound = std::isfinite(result.residual) && result.residual >= 0 && result.tolerance > 0 && result.sd >= 0 &&
+                     result.dof >= 1 && result.slack >= 0 && result.samples >= 0 && result.clutter_density > 0 &&
+                     std::isfinite(result.clutter_density);
+  if (!sound) throw std::runtime_error("gave a residual, tolerance, deviation or density that is out of its range");
 }
 
 /// A relationship made ready for one mesh: its expressions evaluated.
@@ -37,7 +58,8 @@ struct BoundRelation {
         arguments(
             relation_arguments(mesh, model.relationships[relationship], stations.relation_defaults[relationship])) {
     if (const auto& given = model.relationships[relationship].tolerance)
-      tolerance = given->evaluate({mesh.box, Box{}}) * (stations.relation_units[relationship] == "deg" ? pi / 180 : 1);
+      tolerance = positive_on_mesh(*given, {mesh.box, Box{}}, model.relationships[relationship].where, "tolerance") *
+                  (stations.relation_units[relationship] == "deg" ? pi / 180 : 1);
   }
 
   RelationResult test(const MeshView& mesh, std::span<const ConstructedFeature* const> features,
@@ -47,6 +69,7 @@ struct BoundRelation {
       operands.push_back({&feature->shape, feature->points, feature->box});
     RelationResult result = tester->test({operands, mesh.box, mesh.mean_edge}, Options(arguments), context);
     if (tolerance) result.tolerance = *tolerance;
+    check(result);
     return result;
   }
 };

@@ -58,6 +58,7 @@ Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const
     const PluginManifest& relation =
         catalog.require(PluginKind::relations, relationship.plugin, relationship.where.str());
     stations.relation_units.push_back(relation.unit);
+    stations.relation_ordered.push_back(relation.ordered);
     stations.relation_defaults.push_back(
         argument_defaults(relation, relationship.where.str() + ": relation '" + relation.id + "'"));
     if (stations.relations.contains(relation.id)) continue;

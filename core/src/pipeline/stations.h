@@ -47,6 +47,7 @@ struct Stations {
   std::vector<std::vector<OptionValue>> shape_arguments;
   std::vector<std::vector<OptionValue>> relation_defaults;
   std::vector<std::string> relation_units;  ///< of the residual, per relationship
+  std::vector<bool> relation_ordered;       ///< per relationship: it matters which feature comes first
 
   std::vector<PluginUse> uses;
 };

@@ -136,6 +136,7 @@ PluginManifest manifest_from_descriptor(const PluginDescriptor& descriptor) {
   manifest.abi_minor = descriptor.minor;
   manifest.min_arity = descriptor.min_arity;
   manifest.max_arity = descriptor.max_arity;
+  manifest.ordered = descriptor.ordered != 0;
   manifest.options = rows(descriptor.options, descriptor.option_count, id, "options");
   manifest.arguments = rows(descriptor.arguments, descriptor.argument_count, id, "arguments");
   manifest.provides = provided(descriptor, id);
@@ -194,6 +195,7 @@ std::vector<std::string> differences(const PluginManifest& manifest, const Plugi
   compare("unit", manifest.unit, library.unit);
   compare("minimum arity", std::to_string(manifest.min_arity), std::to_string(library.min_arity));
   compare("maximum arity", std::to_string(manifest.max_arity), std::to_string(library.max_arity));
+  compare("ordered", std::to_string(manifest.ordered), std::to_string(library.ordered));
   compare("options", list(manifest.options), list(library.options));
   compare("arguments", list(manifest.arguments), list(library.arguments));
   compare("provides", list(manifest.provides), list(library.provides));

@@ -42,6 +42,7 @@ struct PluginManifest {
   PluginKind kind = PluginKind::shapes;
   std::string id, version, summary, citation, unit, fingerprint;
   std::uint32_t abi_major = 0, abi_minor = 0, min_arity = 0, max_arity = 0;
+  bool ordered = false;  ///< relations: it matters which feature comes first
   std::vector<OptionRow> options, arguments;
   std::vector<ProvidedRow> provides;
   std::filesystem::path file;     ///< the manifest

@@ -131,6 +131,7 @@ PluginManifest parse(const Json& json) {
   manifest.unit = root.text("unit");
   manifest.min_arity = root.object("arity").integer<std::uint32_t>("minimum");
   manifest.max_arity = root.object("arity").integer<std::uint32_t>("maximum");
+  manifest.ordered = root.object("arity").integer<std::uint32_t>("ordered") != 0;
   manifest.options = option_rows(root.array("options"));
   manifest.arguments = option_rows(root.array("arguments"));
   for (const Fields& entry : root.array("provides"))
@@ -144,19 +145,21 @@ std::string manifest_to_json(const PluginManifest& manifest) {
   Json provides = Json::array();
   for (const ProvidedRow& row : manifest.provides)
     provides.push_back({{"name", row.name}, {"dimension", row.dimension}, {"meaning", row.meaning}});
-  const Json json = {{"schema", schema_id},
-                     {"id", manifest.id},
-                     {"kind", to_string(manifest.kind)},
-                     {"version", manifest.version},
-                     {"abi", {{"major", manifest.abi_major}, {"minor", manifest.abi_minor}}},
-                     {"fingerprint", manifest.fingerprint},
-                     {"summary", manifest.summary},
-                     {"citation", manifest.citation},
-                     {"unit", manifest.unit},
-                     {"arity", {{"minimum", manifest.min_arity}, {"maximum", manifest.max_arity}}},
-                     {"options", to_json(manifest.options)},
-                     {"arguments", to_json(manifest.arguments)},
-                     {"provides", provides}};
+  const Json json = {
+      {"schema", schema_id},
+      {"id", manifest.id},
+      {"kind", to_string(manifest.kind)},
+      {"version", manifest.version},
+      {"abi", {{"major", manifest.abi_major}, {"minor", manifest.abi_minor}}},
+      {"fingerprint", manifest.fingerprint},
+      {"summary", manifest.summary},
+      {"citation", manifest.citation},
+      {"unit", manifest.unit},
+      {"arity",
+       {{"minimum", manifest.min_arity}, {"maximum", manifest.max_arity}, {"ordered", manifest.ordered ? 1 : 0}}},
+      {"options", to_json(manifest.options)},
+      {"arguments", to_json(manifest.arguments)},
+      {"provides", provides}};
   return json.dump(2) + "\n";
 }
 

@@ -10,8 +10,9 @@ namespace toposcope {
 namespace {
 
 /// All that tells features apart but their names.
-std::string signature(const ModelFeature& feature) {
-  std::string text = feature.shape.plugin + "|" + std::to_string(feature.detectability);
+std::string signature(const ModelFeature& feature, bool by_detectability) {
+  std::string text = feature.shape.plugin;
+  if (by_detectability) text += "|" + std::to_string(feature.detectability);
   for (const auto& [name, value] : feature.shape.arguments) text += "|" + name + "=" + value;
   for (const std::string& type : feature.worksets) text += "|" + type;
   for (const Range& range : feature.ranges)
@@ -21,57 +22,92 @@ std::string signature(const ModelFeature& feature) {
   return text;
 }
 
-/// The relationships under a renaming, as a set; two features of a relationship may stand in either order.
-std::multiset<std::string> relationships_under(const Model& model, const std::vector<Index>& renamed) {
-  std::multiset<std::string> all;
-  for (const Relationship& relationship : model.relationships) {
-    std::vector<Index> features;
-    for (Index f : relationship.features) features.push_back(renamed[f]);
-    if (features.size() == 2) std::sort(features.begin(), features.end());
-    std::string text = relationship.plugin;
-    for (Index f : features) text += "|" + std::to_string(f);
-    for (const auto& [name, value] : relationship.arguments) text += "|" + name + "=" + value.text();
-    if (relationship.tolerance) text += "|" + relationship.tolerance->text();
-    all.insert(std::move(text));
+struct Question {
+  const Model& model;
+  const std::vector<Index>& features;
+  const std::vector<Index>& relationships;
+  const std::vector<bool>& ordered;
+
+  /// The relationships under a renaming of positions, as a set.
+  std::multiset<std::string> under(const std::vector<Index>& renamed) const {
+    std::multiset<std::string> all;
+    for (Index r : relationships) {
+      const Relationship& relationship = model.relationships[r];
+      std::vector<Index> scope;
+      for (Index f : relationship.features)
+        scope.push_back(
+            renamed[static_cast<std::size_t>(std::find(features.begin(), features.end(), f) - features.begin())]);
+      if (!ordered[r]) std::sort(scope.begin(), scope.end());
+      std::string text = relationship.plugin;
+      for (Index position : scope) text += "|" + std::to_string(position);
+      for (const auto& [name, value] : relationship.arguments) text += "|" + name + "=" + value.text();
+      if (relationship.tolerance) text += "|" + relationship.tolerance->text();
+      all.insert(std::move(text));
+    }
+    return all;
   }
-  return all;
-}
+};
+
+/// Tries every renaming among features of one signature.
+class Renamings {
+ public:
+  Renamings(const Question& question, std::vector<std::string> signatures)
+      : question_(question),
+        signatures_(std::move(signatures)),
+        renamed_(signatures_.size()),
+        taken_(signatures_.size(), false),
+        orbits(signatures_.size()) {
+    std::iota(renamed_.begin(), renamed_.end(), 0);
+    original_ = question.under(renamed_);
+    extend(0);
+    // Beyond the limit only the trivial renaming is considered.
+    if (tried_ > most_renamings)
+      for (std::set<Index>& orbit : orbits) orbit.clear();
+    for (Index f = 0; f < orbits.size(); ++f) orbits[f].insert(f);
+  }
+
+ private:
+  static constexpr std::size_t most_renamings = 50'000;
+
+  void extend(Index f) {
+    if (tried_ > most_renamings) return;
+    if (f == renamed_.size()) {
+      ++tried_;
+      if (question_.under(renamed_) == original_)
+        for (Index g = 0; g < f; ++g) orbits[g].insert(renamed_[g]);
+      return;
+    }
+    for (Index g = 0; g < renamed_.size(); ++g) {
+      if (taken_[g] || signatures_[f] != signatures_[g]) continue;
+      taken_[g] = true;
+      renamed_[f] = g;
+      extend(f + 1);
+      taken_[g] = false;
+    }
+  }
+
+  const Question& question_;
+  std::vector<std::string> signatures_;
+  std::vector<Index> renamed_;
+  std::vector<bool> taken_;
+  std::multiset<std::string> original_;
+  std::size_t tried_ = 0;
+
+ public:
+  std::vector<std::set<Index>> orbits;
+};
 
 }  // namespace
 
-std::vector<std::vector<Index>> interchangeable_features(const Model& model) {
-  const Index count = static_cast<Index>(model.features.size());
+std::vector<std::vector<Index>> interchangeable_features(const Model& model, const std::vector<Index>& features,
+                                                         const std::vector<Index>& relationships,
+                                                         const std::vector<bool>& ordered, bool by_detectability) {
   std::vector<std::string> signatures;
-  for (const ModelFeature& feature : model.features) signatures.push_back(signature(feature));
-  std::vector<Index> renamed(count);
-  std::iota(renamed.begin(), renamed.end(), 0);
-  const std::multiset<std::string> original = relationships_under(model, renamed);
-
-  std::vector<std::set<Index>> orbit(count);
-  for (Index f = 0; f < count; ++f) orbit[f].insert(f);
-  // Models are small; beyond this only the trivial renaming is considered.
-  constexpr std::size_t most_renamings = 50'000;
-  std::size_t tried = 0;
-  std::vector<bool> taken(count, false);
-  const auto extend = [&](auto&& self, Index f) -> void {
-    if (tried > most_renamings) return;
-    if (f == count) {
-      ++tried;
-      if (relationships_under(model, renamed) == original)
-        for (Index g = 0; g < count; ++g) orbit[g].insert(renamed[g]);
-      return;
-    }
-    for (Index g = 0; g < count; ++g) {
-      if (taken[g] || signatures[f] != signatures[g]) continue;
-      taken[g] = true;
-      renamed[f] = g;
-      self(self, f + 1);
-      taken[g] = false;
-    }
-  };
-  extend(extend, 0);
+  for (Index f : features) signatures.push_back(signature(model.features[f], by_detectability));
+  const Question question{model, features, relationships, ordered};
   std::vector<std::vector<Index>> result;
-  for (const auto& features : orbit) result.emplace_back(features.begin(), features.end());
+  for (const std::set<Index>& orbit : Renamings(question, std::move(signatures)).orbits)
+    result.emplace_back(orbit.begin(), orbit.end());
   return result;
 }
 

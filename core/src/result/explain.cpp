@@ -228,7 +228,7 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
   result.box = input.box;
   result.mean_edge = input.mean_edge;
   result.model = model.name;
-  result.log_evidence = outcome.log_evidence;
+  result.log_evidence = posed.log_evidence;
   result.guarantee = outcome.guarantee;
   result.optimal = outcome.optimal;
   result.working_sets = analysis.sets.size();
@@ -236,10 +236,10 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
   result.plugins = stations.uses;
   for (std::size_t c = 0; c < analysis.classes.size(); ++c) {
     const ClassOutcome& each = analysis.classes[c];
-    result.classes.push_back({each.name, each.outcome.log_evidence, analysis.class_probabilities[c],
-                              model.classes.empty() || each.complete});
+    result.classes.push_back(
+        {each.name, each.log_evidence, analysis.class_probabilities[c], model.classes.empty() || each.complete});
   }
-  if (!model.classes.empty() && posed.complete) result.class_name = posed.name;
+  if (!model.classes.empty() && posed.complete && posed.log_evidence > 0) result.class_name = posed.name;
   for (Index f = 0; f < model.features.size(); ++f) {
     result.features.push_back(explainer.feature(f));
     result.candidates.emplace_back(model.features[f].name, analysis.features.of_feature[f].count);

@@ -168,11 +168,11 @@ Json document(const Result& result) {
 }  // namespace
 
 std::string to_json(const Result& result) {
-  return document(result).dump(1) + "\n";
+  return document(result).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string to_json_line(const Result& result) {
-  return document(result).dump() + "\n";
+  return document(result).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string to_json_line(const Classification& classification) {
@@ -183,7 +183,7 @@ std::string to_json_line(const Classification& classification) {
   for (const auto& [name, probability] : classification.probabilities) root["probabilities"][name] = probability;
   root["relations"] = Json::array();
   for (const RelationReport& report : classification.relations) root["relations"].push_back(relation(report));
-  return root.dump() + "\n";
+  return root.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace toposcope

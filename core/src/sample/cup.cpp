@@ -180,7 +180,7 @@ SampleKind cup_kind() {
        length_parameter("lip_radius", "2", "0", "radius that rounds both edges of the lip; wall / 2: a half circle"),
        length_parameter("foot_fillet", "3", "0", "radius that rounds the edge of bottom and side"),
        length_parameter("inner_fillet", "6", "0", "radius between the inner wall and the inner bottom"),
-       switch_parameter("handle", "1", "whether there is a handle"),
+       switch_parameter("handle", "true", "whether there is a handle"),
        length_parameter("handle_height", "54", "0", "distance between the centre lines of the handle's legs"),
        length_parameter("handle_reach", "28", "0", "distance from the wall to the centre line of the grip"),
        length_parameter("handle_thickness", "5", "0", "radius of the handle's round cross-section"),

@@ -137,7 +137,7 @@ OptionRow length_parameter(const char* name, const char* default_value, const ch
 }
 
 OptionRow switch_parameter(const char* name, const char* default_value, const char* meaning) {
-  return {name, OptionType::boolean, "", default_value, "0", "1", meaning};
+  return {name, OptionType::boolean, "", default_value, "", "", meaning};
 }
 
 double parameter(const ParameterValues& values, std::string_view name) {
@@ -171,9 +171,11 @@ ParameterValues check_parameters(const SampleKind& kind, const std::map<std::str
   std::vector<std::string> names;
   for (const OptionRow& row : kind.parameters) {
     const auto it = given.find(row.name);
-    const double value = it == given.end() ? to_number(row.default_value) : it->second;
+    const double value = it == given.end() ? (row.type == OptionType::boolean ? double(row.default_value == "true")
+                                                                              : to_number(row.default_value))
+                                           : it->second;
     if (row.type == OptionType::boolean)
-      require(value == 0 || value == 1, kind.name, row.name, value, "it must be 0 (no) or 1 (yes)",
+      require(value == 0 || value == 1, kind.name, row.name, value, "it must be true or false",
               "the default is " + row.default_value);
     else
       require(std::isfinite(value) && value > to_number(row.minimum), kind.name, row.name, value,

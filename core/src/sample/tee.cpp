@@ -102,7 +102,7 @@ SampleKind tee_kind() {
            length_parameter("wall", "4", "0", "thickness of the wall"),
            length_parameter("run_length", "120", "0", "length of the run, end to end"),
            length_parameter("branch_length", "60", "0", "distance from the run's axis to the branch's end"),
-           switch_parameter("socket", "0", "whether the openings are widened to sockets"),
+           switch_parameter("socket", "false", "whether the openings are widened to sockets"),
            length_parameter("socket_radius", "19", "0", "inner radius of a socket"),
            length_parameter("socket_depth", "16", "0", "depth of a socket"),
            length_parameter("fillet", "6", "0", "radius of the fillet where the branch leaves the run"),

@@ -64,5 +64,6 @@ TOPOSCOPE_PLUGIN(RelationTester, AxisDistance,
                   .unit = "length",
                   .min_arity = 2,
                   .max_arity = 2,
+                  .ordered = true,
                   .options = options,
                   .arguments = arguments})

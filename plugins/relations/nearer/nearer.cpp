@@ -54,4 +54,5 @@ TOPOSCOPE_PLUGIN(RelationTester, Nearer,
                   .unit = "length",
                   .min_arity = 3,
                   .max_arity = 3,
+                  .ordered = true,
                   .options = options})

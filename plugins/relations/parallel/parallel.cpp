@@ -38,7 +38,8 @@ class Parallel final : public RelationTester {
       // A line is parallel to a plane when it is perpendicular to the plane's normal.
       result.residual = pi / 2 - angle;
       result.dof = 1;
-      result.clutter_density = std::cos(result.residual);
+      // Never 0: at a right angle the relation fails whatever is unrelated.
+      result.clutter_density = std::max(std::cos(result.residual), 0.05);
     }
     return result;
   }

@@ -33,7 +33,8 @@ class Perpendicular final : public RelationTester {
     if (like) {
       result.residual = pi / 2 - angle;
       result.dof = 1;
-      result.clutter_density = std::cos(result.residual);
+      // Never 0: at a right angle the relation fails whatever is unrelated.
+      result.clutter_density = std::max(std::cos(result.residual), 0.05);
     } else {
       // A line is perpendicular to a plane when it is parallel to the plane's normal.
       result.residual = angle;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 namespace component_tree {
 namespace {
@@ -100,7 +101,10 @@ std::vector<Component> components(const toposcope::MeshView& mesh, const std::ve
         Index a = forest.find(v), b = forest.find(q);
         if (a == b) continue;
         // The component with the longer past keeps its head; of equals the older.
-        if (growth[a].size_before < growth[b].size_before || (growth[a].size_before == growth[b].size_before && a > b))
+        if (growth[a].size_before < growth[b].size_before ||
+            (growth[a].size_before == growth[b].size_before &&
+             std::tie(growth[a].size_offered, growth[a].level_before, b) <
+                 std::tie(growth[b].size_offered, growth[b].level_before, a)))
           std::swap(a, b);
         if (growth[b].size_before >= limits.min_vertices) {  // two components with a past meet: both as they were
           for (Index head : {a, b}) {

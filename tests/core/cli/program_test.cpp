@@ -159,6 +159,7 @@ TEST_F(Program, BadUsageIsExplained) {
       {"run " + mesh("cup") + " --model cup --set nonsense", "station.option=value"},
       {"plugins describe circl", "circle"},
       {"sample cupp -o x.ply", "cup"},
+      {"run --threads 5000 --model cup " + mesh("cup"), "threads"},
   };
   for (const auto& [arguments, remedy] : bad) {
     const Outcome outcome = toposcope(arguments);

@@ -70,6 +70,7 @@ TEST(PluginManifest, EveryDifferenceIsNamed) {
       {"unit", [](PluginManifest& m) { m.unit = "deg"; }},
       {"minimum arity", [](PluginManifest& m) { m.min_arity = 2; }},
       {"maximum arity", [](PluginManifest& m) { m.max_arity = 2; }},
+      {"ordered", [](PluginManifest& m) { m.ordered = true; }},
       {"options", [](PluginManifest& m) { m.options[0].maximum = "91"; }},
       {"options", [](PluginManifest& m) { m.options.pop_back(); }},
       {"arguments", [](PluginManifest& m) { m.arguments[0].type = OptionType::real; }},
