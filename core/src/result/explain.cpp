@@ -87,7 +87,7 @@ class Explainer {
   double probability(Index v, Index value) const {
     const auto& posteriors = posed_.outcome.posteriors;
     if (posteriors.empty()) return std::numeric_limits<double>::quiet_NaN();
-    if (value == 0) return posteriors[v][0];
+    if (value == 0) return std::min(1.0, posteriors[v][0]);
     double sum = 0;
     for (Index other = 1; other < posed_.problem.variables[v].domain(); ++other)
       if (other == value || same_shape(v, value, other)) sum += posteriors[v][other];
@@ -251,7 +251,7 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
   for (std::size_t k = 1; k < outcome.labelings.size(); ++k) {
     AlternativeReport& alternative = result.alternatives.emplace_back();
     alternative.cost = outcome.labelings[k].cost;
-    alternative.probability = std::exp(-outcome.labelings[k].cost - outcome.log_evidence);
+    alternative.probability = std::min(1.0, std::exp(-outcome.labelings[k].cost - outcome.log_evidence));
     for (Index v = 0; v < best.values.size(); ++v)
       alternative.candidates.emplace_back(posed.problem.variables[v].name,
                                           static_cast<int>(outcome.labelings[k].values[v]));

@@ -286,7 +286,7 @@ TEST(Sample, ErrorsNameParameterValueAndRemedy) {
   expect({.kind = "cup", .parameters = {{"hieght", 3}}}, {"'hieght'", "height"});
   expect({.kind = "cup", .parameters = {{"height", -3}}}, {"height is -3", "greater than 0", "95"});
   expect({.kind = "cup", .parameters = {{"height", NAN}}}, {"height is nan"});
-  expect({.kind = "cup", .parameters = {{"handle", 0.5}}}, {"handle is 0.5", "0 (no) or 1 (yes)"});
+  expect({.kind = "cup", .parameters = {{"handle", 0.5}}}, {"handle is 0.5", "true or false"});
   expect({.kind = "cup", .parameters = {{"wall", 0.1}}}, {"wall is 0.1", "2 %", "thicker"});
   expect({.kind = "cup", .parameters = {{"wall", 10}, {"bottom_radius", 10}, {"lip_radius", 3}, {"top_radius", 60}}},
          {"cup: ", " is "});
