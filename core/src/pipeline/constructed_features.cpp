@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/constructed_features.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "base/errors.h"
+#include "pipeline/working_set_groups.h"
 #include "plugin/plugin_host.h"
 #include "toposcope/geometry.h"
 
 namespace toposcope {
 namespace {
 
-constexpr std::size_t max_groups = 1'000'000;
 constexpr std::size_t grain = 8;
 
 /// Features that ask for the same shape of the same types share their fits.
@@ -45,55 +43,6 @@ std::vector<FitJob> fit_jobs(const Model& model, const Stations& stations) {
   }
   return jobs;
 }
-
-/// All groups of pairwise disjoint working sets, one of each type; for equal types in ascending order, so that each
-/// group comes once.
-class GroupEnumerator {
- public:
-  GroupEnumerator(const ModelFeature& feature, const WorkingSets& sets, const BitMatrix& overlap)
-      : feature_(feature), overlap_(overlap) {
-    for (const std::string& type : feature.worksets) {
-      std::vector<Index>& candidates = of_type_.emplace_back();
-      for (Index s = 0; s < sets.size(); ++s)
-        if (sets.type_names[sets.types[s]] == type) candidates.push_back(s);
-    }
-    // A type without a set: no group at all.
-    if (std::none_of(of_type_.begin(), of_type_.end(), [](const auto& sets_of) { return sets_of.empty(); })) extend();
-  }
-  std::size_t arity() const { return of_type_.size(); }
-  std::size_t size() const { return groups_.size() / of_type_.size(); }
-  std::span<const Index> operator[](std::size_t group) const {
-    return std::span(groups_).subspan(group * of_type_.size(), of_type_.size());
-  }
-
- private:
-  void extend() {
-    const std::size_t position = group_.size();
-    if (position == of_type_.size()) {
-      groups_.insert(groups_.end(), group_.begin(), group_.end());
-      if (size() > max_groups)
-        throw UsageError(feature_.where.str() + ": feature '" + feature_.name + "' has over " +
-                         std::to_string(max_groups) +
-                         " groups of working sets on this mesh; name fewer working-set types, or let the classifier "
-                         "give fewer sets");
-      return;
-    }
-    for (Index s : of_type_[position]) {
-      bool fits = true;
-      for (std::size_t i = 0; i < position && fits; ++i)
-        fits = !overlap_.get(group_[i], s) && (feature_.worksets[i] != feature_.worksets[position] || group_[i] < s);
-      if (!fits) continue;
-      group_.push_back(s);
-      extend();
-      group_.pop_back();
-    }
-  }
-  const ModelFeature& feature_;
-  const BitMatrix& overlap_;
-  std::vector<std::vector<Index>> of_type_;
-  std::vector<Index> group_;
-  std::vector<Index> groups_;  ///< one after the other
-};
 
 struct Bounds {
   double low, high;
@@ -164,39 +113,7 @@ struct JobResult {
   std::vector<std::vector<Fate>> fates;  ///< per feature of the job, per group
 };
 
-/// The points of a group of working sets, one set after the other.
-struct GroupPoints {
-  std::vector<Vec3> points;
-  std::vector<double> areas;
-  std::vector<Index> offsets;
-
-  void gather(const MeshView& mesh, std::span<const double> vertex_areas, const WorkingSets& sets,
-              std::span<const Index> group) {
-    points.clear();
-    areas.clear();
-    offsets.assign(1, 0);
-    for (Index s : group) {
-      for (Index v : sets[s]) {
-        points.push_back(mesh.positions[v]);
-        areas.push_back(vertex_areas[v]);
-      }
-      offsets.push_back(static_cast<Index>(points.size()));
-    }
-  }
-};
-
-/// A third of the triangles around each vertex.
-std::vector<double> areas_of_vertices(const MeshView& mesh) {
-  std::vector<double> areas(mesh.vertex_count(), 0);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const double third =
-        (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]).norm() / 6;
-    for (Index v : {a, b, c}) areas[v] += third;
-  }
-  return areas;
-}
-
-JobResult run_job(const FitJob& job, const GroupEnumerator& groups, const MeshView& mesh, const Model& model,
+JobResult run_job(const FitJob& job, const WorkingSetGroups& groups, const MeshView& mesh, const Model& model,
                   const WorkingSets& sets, std::span<const double> vertex_areas, std::span<const Box> set_boxes,
                   Context& context) {
   JobResult result;
@@ -265,7 +182,7 @@ double fit_error_sd(const ModelFeature& feature, const MeshView& mesh, const Box
 }
 
 /// Moves the best candidates of each feature of a job to `out`.
-void select(const FitJob& job, const GroupEnumerator& groups, const JobResult& result, const MeshView& mesh,
+void select(const FitJob& job, const WorkingSetGroups& groups, const JobResult& result, const MeshView& mesh,
             const Model& model, const WorkingSets& sets, std::span<const double> vertex_areas, const Stations& stations,
             ConstructedFeatures& out) {
   constexpr Index unmade = std::numeric_limits<Index>::max();
@@ -323,7 +240,7 @@ ConstructedFeatures construct_features(const MeshView& mesh, const Model& model,
   features.of_feature.resize(model.features.size());
   const std::vector<FitJob> jobs = fit_jobs(model, stations);
   for (std::size_t j = 0; j < jobs.size(); ++j) {
-    const GroupEnumerator groups(*jobs[j].feature, sets, overlap);
+    const WorkingSetGroups groups(*jobs[j].feature, sets, overlap);
     const JobResult result = guard(jobs[j].feature->shape.plugin, [&] {
       return run_job(jobs[j], groups, mesh, model, sets, vertex_areas, boxes, context);
     });
