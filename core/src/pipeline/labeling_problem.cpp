@@ -18,7 +18,9 @@ constexpr std::size_t grain = 16;
 std::vector<OptionValue> relation_arguments(const MeshView& mesh, const Relationship& relationship,
                                             const std::vector<OptionValue>& defaults) {
   std::vector<OptionValue> values = defaults;
-  for (const auto& [name, expression] : relationship.arguments) {
+  for (const auto& argument : relationship.arguments) {
+    const std::string& name = argument.first;
+    const Expression& expression = argument.second;
     auto value = std::find_if(values.begin(), values.end(), [&](const OptionValue& v) { return v.name == name; });
     if (value == values.end()) value = values.insert(value, {name, 0, ""});
     value->number = expression.evaluate({mesh.box, Box{}});
