@@ -40,7 +40,7 @@ std::vector<fs::path> yaml_files(const fs::path& folder) {
 }  // namespace
 
 fs::path find_resource(const std::string& kind, const std::string& name) {
-  const fs::path given(name);
+  fs::path given(name);
   const std::string one = kind.substr(0, kind.size() - 1);
   if (given.extension() == ".yaml" || given.extension() == ".yml") {
     if (!fs::is_regular_file(given)) throw UsageError(name + ": no such " + one + " file");
@@ -48,7 +48,7 @@ fs::path find_resource(const std::string& kind, const std::string& name) {
   }
   std::vector<std::string> known;
   for (const fs::path& folder : folders(kind)) {
-    const fs::path file = folder / (name + ".yaml");
+    fs::path file = folder / (name + ".yaml");
     if (fs::is_regular_file(file)) return file;
     std::error_code error;
     for (const auto& entry : fs::recursive_directory_iterator(folder, error))
@@ -65,7 +65,7 @@ fs::path find_resource(const std::string& kind, const std::string& name) {
 
 std::vector<fs::path> find_models(const std::string& folder_or_list) {
   if (folder_or_list.find('/') != std::string::npos && fs::is_directory(folder_or_list)) {
-    const std::vector<fs::path> files = yaml_files(folder_or_list);
+    std::vector<fs::path> files = yaml_files(folder_or_list);
     if (files.empty()) throw UsageError(folder_or_list + ": no .yaml file in this folder; give a folder of models");
     return files;
   }
