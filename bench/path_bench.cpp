@@ -12,8 +12,10 @@
 #include "model/read_model.h"
 #include "pipeline/analysis.h"
 #include "pipeline/pipeline_manifest.h"
+#include "pipeline/working_sets.h"
 #include "plugin/plugin_host.h"
 #include "sample/sample.h"
+#include "support/analytic_surfaces.h"
 #include "toposcope/curvature.h"
 
 namespace {
@@ -36,12 +38,51 @@ void read_binary_ply(benchmark::State& state) {
   fs::remove(file);
 }
 
+const MeshView& torus(Index faces) {
+  static std::map<Index, Mesh> made;
+  auto found = made.find(faces);
+  if (found == made.end()) {
+    TriangleSoup soup = test::make_surface("torus", faces, test::Sampling::irregular, 0.02, 1).mesh;
+    found = made.emplace(faces, Mesh(std::move(soup), "torus")).first;
+  }
+  return found->second.view();
+}
+
+void normals(benchmark::State& state) {
+  const MeshView& mesh = torus(static_cast<Index>(state.range(0)));
+  RunContext context;
+  for (auto _ : state) benchmark::DoNotOptimize(vertex_normals(mesh, context).front());
+}
+
+/// The default estimate, normals included.
 void curvature(benchmark::State& state) {
-  const Mesh mesh(cup(static_cast<Index>(state.range(0))), "cup");
+  const MeshView& mesh = torus(static_cast<Index>(state.range(0)));
+  RunContext context;
+  for (auto _ : state) {
+    ShapeOperators operators = fit_shape_operators(mesh, context);
+    diffuse(mesh, operators, diffusion_passes(mesh, 0.015 * mesh.box.diagonal(), 1), context);
+    benchmark::DoNotOptimize(principal_curvatures(operators).maximum.front());
+  }
+}
+
+void dissertation_curvature(benchmark::State& state) {
+  const MeshView& mesh = torus(static_cast<Index>(state.range(0)));
   RunContext context;
   for (auto _ : state)
-    benchmark::DoNotOptimize(
-        turning_curvature(mesh.view(), plane_fit_normals(mesh.view(), context), 2, context).maximum.front());
+    benchmark::DoNotOptimize(turning_curvature(mesh, plane_fit_normals(mesh, context), 2, context).maximum.front());
+}
+
+/// The station classify: normals, curvature, working sets, and the kernel's check of the sets.
+void working_sets(benchmark::State& state) {
+  const MeshView& mesh = torus(static_cast<Index>(state.range(0)));
+  PluginHost host{PluginCatalog({{fs::path(TOPOSCOPE_BUILD_DIR) / "plugins", true}})};
+  const PluginManifest& manifest = host.catalog().require(PluginKind::worksets, "curvature-tree");
+  const auto classifier = host.worksets(manifest.id, check_options(manifest.options, {}, manifest.id));
+  std::vector<std::string> types;
+  for (const ProvidedRow& row : manifest.provides) types.push_back(row.name);
+  RunContext context;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(classify_mesh(mesh, *classifier, manifest.id, types, context).vertices.size());
 }
 
 void whole_analysis(benchmark::State& state) {
@@ -56,7 +97,10 @@ void whole_analysis(benchmark::State& state) {
 }
 
 BENCHMARK(read_binary_ply)->Arg(5000)->Arg(20000)->Arg(100000)->Unit(benchmark::kMillisecond);
-BENCHMARK(curvature)->Arg(5000)->Arg(20000)->Arg(100000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(normals)->Arg(20000)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(curvature)->Arg(20000)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(dissertation_curvature)->Arg(20000)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(working_sets)->Arg(20000)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(whole_analysis)->Arg(5000)->Arg(20000)->Arg(100000)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

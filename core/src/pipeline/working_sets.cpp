@@ -34,7 +34,8 @@ class CheckedSink final : public WorkingSetSink {
     if (!connected(vertices, set)) fail("that is not connected");
     const auto begin = static_cast<std::ptrdiff_t>(sets_.vertices.size());
     sets_.vertices.insert(sets_.vertices.end(), vertices.begin(), vertices.end());
-    std::sort(sets_.vertices.begin() + begin, sets_.vertices.end());
+    if (!std::is_sorted(sets_.vertices.begin() + begin, sets_.vertices.end()))
+      std::sort(sets_.vertices.begin() + begin, sets_.vertices.end());
     sets_.offsets.push_back(static_cast<Index>(sets_.vertices.size()));
     sets_.types.push_back(static_cast<Index>(found - sets_.type_names.begin()));
     sets_.saliency.push_back(saliency);

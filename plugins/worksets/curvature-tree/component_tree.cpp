@@ -2,19 +2,18 @@
 #include "component_tree.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 namespace component_tree {
 namespace {
 
-constexpr double step = 0.02;
 constexpr Index none = std::numeric_limits<Index>::max();
 
-/// Union-find whose components are linked lists that only grow at their tail, so that the vertices of a component as
-/// it was at the end of an earlier level are still the first ones from its head.
+/// Union-find whose components are linked lists that only grow at their tail: the vertices of a component as it was at
+/// the end of an earlier level are for ever the first ones from its head.
 class Forest {
  public:
   explicit Forest(Index count) : parent_(count, none), next_(count, none), tail_(count), size_(count, 1) {}
@@ -36,120 +35,166 @@ class Forest {
     size_[a] += size_[b];
   }
   Index size(Index root) const { return size_[root]; }
-  void copy(Index head, Index count, std::vector<Index>& out) const {
-    out.clear();
-    for (Index v = head; count > 0; --count, v = next_[v]) out.push_back(v);
+
+  /// The first `count` vertices from a head, ascending.
+  std::vector<Index> first(Index head, Index count) {
+    std::vector<Index> vertices;
+    vertices.reserve(count);
+    if (count < parent_.size() / 64) {
+      for (Index v = head; count > 0; --count, v = next_[v]) vertices.push_back(v);
+      std::sort(vertices.begin(), vertices.end());
+      return vertices;
+    }
+    marks_.assign(parent_.size() / 64 + 1, 0);  // many vertices: faster than sorting
+    for (Index v = head; count > 0; --count, v = next_[v]) marks_[v / 64] |= std::uint64_t{1} << v % 64;
+    for (Index word = 0; word < marks_.size(); ++word)
+      for (std::uint64_t bits = marks_[word]; bits != 0; bits &= bits - 1)
+        vertices.push_back(64 * word + static_cast<Index>(std::countr_zero(bits)));
+    return vertices;
   }
 
  private:
   std::vector<Index> parent_, next_, tail_, size_;
+  std::vector<std::uint64_t> marks_;
 };
 
 /// What is remembered of each root between levels.
-struct Growth {
-  Index size_before = 0;    ///< at the end of the previous level in which it changed
-  double level_before = 0;  ///< of that level
-  Index size_offered = 0;   ///< when last offered
-  Index offered = none;     ///< index into the result, none if never
+struct Past {
+  Index size = 0;          ///< at the end of the previous level in which it changed
+  std::int32_t level = 0;  ///< of that level
+  Index offered_size = 0;  ///< when last offered
+  Index offered = none;    ///< index of that offer, none if never
+};
+
+/// A component as it was at one level: the first vertices from its head.
+struct Offer {
+  Index head, size;
+  std::int32_t level;
+  double saliency = -1;  ///< not yet known: the component has not changed since
+
+  /// A large set that stands out a little tells as much as a small one that stands out a lot.
+  double worth() const { return saliency * std::sqrt(static_cast<double>(size)); }
+};
+
+/// Vertices by level, descending; within a level ascending.
+std::vector<Index> sorted_by_level(const Levels& level) {
+  const auto [low, high] = std::minmax_element(level.begin(), level.end());
+  const std::int32_t top = *high;
+  std::vector<Index> place(static_cast<std::size_t>(std::int64_t{top} - *low) + 2, 0);
+  for (std::int32_t l : level) ++place[static_cast<std::size_t>(top - l) + 1];
+  for (std::size_t i = 1; i < place.size(); ++i) place[i] += place[i - 1];
+  std::vector<Index> order(level.size());
+  for (Index v = 0; v < level.size(); ++v) order[place[static_cast<std::size_t>(top - level[v])]++] = v;
+  return order;
+}
+
+/// Floods the mesh from the highest level down and collects the stages that are worth offering.
+class Flood {
+ public:
+  Flood(const toposcope::MeshView& mesh, const Levels& level, double step, const Limits& limits)
+      : mesh_(mesh),
+        level_(level),
+        step_(step),
+        limits_(limits),
+        forest_(mesh.vertex_count()),
+        past_(mesh.vertex_count()) {}
+
+  void run() {
+    const std::vector<Index> order = sorted_by_level(level_);
+    for (std::size_t begin = 0; begin < order.size();) {
+      std::size_t end = begin;
+      while (end < order.size() && level_[order[end]] == level_[order[begin]]) ++end;
+      enter(std::span(order).subspan(begin, end - begin), level_[order[begin]]);
+      begin = end;
+    }
+    for (Offer& offer : offers_) offer.saliency = std::max(offer.saliency, 0.0);
+  }
+
+  std::vector<Component> best() {
+    const auto better = [](const Offer& a, const Offer& b) {
+      return std::tuple(-a.worth(), b.size, a.head) < std::tuple(-b.worth(), a.size, b.head);
+    };
+    std::sort(offers_.begin(), offers_.end(), better);
+    if (offers_.size() > limits_.max_components) offers_.resize(limits_.max_components);
+    std::vector<Component> components;
+    components.reserve(offers_.size());
+    for (const Offer& offer : offers_) components.push_back({forest_.first(offer.head, offer.size), offer.saliency});
+    return components;
+  }
+
+ private:
+  void enter(std::span<const Index> vertices, std::int32_t now) {
+    changed_.clear();
+    for (Index v : vertices) forest_.insert(v);
+    for (Index v : vertices) {
+      for (Index q : mesh_.one_ring(v))
+        if (forest_.contains(q)) meet(forest_.find(v), forest_.find(q), now);
+      changed_.push_back(forest_.find(v));
+    }
+    for (Index root : changed_) {
+      Past& past = past_[root];
+      const Index size = forest_.size(root);
+      if (forest_.find(root) != root || past.size == size) continue;
+      if (size >= std::max<double>(limits_.min_vertices, limits_.growth * past.offered_size)) {
+        settle(root, now);
+        offer(root, size, now);
+      }
+      past.size = size;
+      past.level = now;
+    }
+  }
+
+  void meet(Index a, Index b, std::int32_t now) {
+    if (a == b) return;
+    // The component with the longer past keeps its head; of equals the older.
+    const auto age = [&](Index r) { return std::tuple(past_[r].size, past_[r].offered_size, past_[r].level); };
+    if (age(a) < age(b) || (age(a) == age(b) && b < a)) std::swap(a, b);
+    if (past_[b].size >= limits_.min_vertices) {  // two components with a past meet: both as they were
+      // Before a merger a stage is worth offering for less growth than between mergers.
+      const double growth = 1 + (limits_.growth - 1) / 4;
+      for (Index head : {a, b}) {
+        const Past past = past_[head];
+        if (past.size >= growth * past.offered_size) {
+          settle(head, past.level);
+          offer(head, past.size, past.level);
+        }
+        settle(head, now);
+      }
+    }
+    forest_.join(a, b);
+  }
+
+  void offer(Index head, Index size, std::int32_t at) {
+    if (size < limits_.min_vertices || size > limits_.max_vertices) return;
+    past_[head].offered_size = size;
+    past_[head].offered = static_cast<Index>(offers_.size());
+    offers_.push_back({head, size, at});
+  }
+
+  /// The last stage offered is judged by how far the field fell until now.
+  void settle(Index head, std::int32_t now) {
+    if (past_[head].offered == none) return;
+    Offer& last = offers_[past_[head].offered];
+    if (last.saliency < 0) last.saliency = 1 - std::exp(-step_ * (last.level - now));
+  }
+
+  const toposcope::MeshView& mesh_;
+  const Levels& level_;
+  double step_;
+  const Limits& limits_;
+  Forest forest_;
+  std::vector<Past> past_;
+  std::vector<Offer> offers_;
+  std::vector<Index> changed_;
 };
 
 }  // namespace
 
-std::vector<Component> components(const toposcope::MeshView& mesh, const std::vector<double>& field,
+std::vector<Component> components(const toposcope::MeshView& mesh, const Levels& level, double step,
                                   const Limits& limits) {
-  const Index count = mesh.vertex_count();
-  std::vector<std::int32_t> level(count);
-  for (Index v = 0; v < count; ++v) level[v] = static_cast<std::int32_t>(std::floor(field[v] / step));
-  std::vector<Index> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return level[a] > level[b]; });
-
-  // Before a merger a stage is worth offering for less growth than between mergers.
-  const double merge_growth = 1 + (limits.growth - 1) / 4;
-  Forest forest(count);
-  std::vector<Growth> growth(count);
-  std::vector<Component> result;
-  std::vector<double> level_of;  // of each result
-  std::vector<Index> touched;
-
-  const auto offer = [&](Index head, Index size, double at) {
-    if (size < limits.min_vertices || size > limits.max_vertices) return;
-    Component& component = result.emplace_back();
-    forest.copy(head, size, component.vertices);
-    level_of.push_back(at);
-    component.saliency = -1;
-    growth[head].size_offered = size;
-    growth[head].offered = static_cast<Index>(result.size() - 1);
-  };
-  // The last stage offered is judged by how far the field fell until now.
-  const auto settle = [&](Index head, double now) {
-    if (growth[head].offered == none) return;
-    Component& component = result[growth[head].offered];
-    if (component.saliency < 0) component.saliency = 1 - std::exp(-(level_of[growth[head].offered] - now));
-  };
-
-  for (Index begin = 0; begin < count;) {
-    Index end = begin;
-    while (end < count && level[order[end]] == level[order[begin]]) ++end;
-    const double now = level[order[begin]] * step;
-    touched.clear();
-    for (Index i = begin; i < end; ++i) forest.insert(order[i]);
-    for (Index i = begin; i < end; ++i) {
-      const Index v = order[i];
-      for (Index q : mesh.one_ring(v)) {
-        if (!forest.contains(q)) continue;
-        Index a = forest.find(v), b = forest.find(q);
-        if (a == b) continue;
-        // The component with the longer past keeps its head; of equals the older.
-        if (growth[a].size_before < growth[b].size_before ||
-            (growth[a].size_before == growth[b].size_before &&
-             std::tie(growth[a].size_offered, growth[a].level_before, b) <
-                 std::tie(growth[b].size_offered, growth[b].level_before, a)))
-          std::swap(a, b);
-        if (growth[b].size_before >= limits.min_vertices) {  // two components with a past meet: both as they were
-          for (Index head : {a, b}) {
-            Growth& past = growth[head];
-            if (past.size_before >= merge_growth * past.size_offered) {
-              settle(head, past.level_before);
-              offer(head, past.size_before, past.level_before);
-            }
-            settle(head, now);
-          }
-        }
-        forest.join(a, b);
-        touched.push_back(a);
-      }
-      touched.push_back(forest.find(v));
-    }
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    for (Index root : touched) {
-      if (forest.find(root) != root) continue;
-      Growth& past = growth[root];
-      const Index size = forest.size(root);
-      const double due = std::max<double>(limits.min_vertices, limits.growth * past.size_offered);
-      if (size >= due) {
-        settle(root, now);
-        offer(root, size, now);
-      }
-      past.size_before = size;
-      past.level_before = now;
-    }
-    begin = end;
-  }
-  for (Component& component : result) component.saliency = std::max(component.saliency, 0.0);
-
-  for (Component& component : result) std::sort(component.vertices.begin(), component.vertices.end());
-  // A large set that stands out a little tells as much as a small one that stands out a lot.
-  const auto worth = [](const Component& c) { return c.saliency * std::sqrt(static_cast<double>(c.vertices.size())); };
-  const auto better = [&](const Component& a, const Component& b) {
-    if (worth(a) != worth(b)) return worth(a) > worth(b);
-    if (a.vertices.size() != b.vertices.size()) return a.vertices.size() > b.vertices.size();
-    return a.vertices.front() < b.vertices.front();
-  };
-  std::sort(result.begin(), result.end(), better);
-  if (result.size() > limits.max_components) result.resize(limits.max_components);
-  return result;
+  Flood flood(mesh, level, step, limits);
+  flood.run();
+  return flood.best();
 }
 
 }  // namespace component_tree

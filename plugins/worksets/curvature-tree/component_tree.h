@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "toposcope/mesh_view.h"
@@ -8,6 +9,9 @@
 namespace component_tree {
 
 using toposcope::Index;
+
+/// A field read in steps: vertices that differ by rounding alone enter a component together.
+using Levels = std::vector<std::int32_t>;
 
 struct Limits {
   double growth;  ///< a component is offered again each time that it has grown by this factor
@@ -17,17 +21,17 @@ struct Limits {
 };
 
 struct Component {
-  std::vector<Index> vertices;
+  std::vector<Index> vertices;  ///< ascending
   /// 1 - exp(-(fall of the field until the component has grown by the growth factor or merged)): near 1 for a
   /// component with a steep border, near 0 for a passing stage.
   double saliency = 0;
 };
 
-/// Components of {field >= t} over all t: those just before two merge, and between merges one for each growth by the
-/// factor. The field is read in steps of 0.02 (the fields are logarithms), so that vertices that differ by rounding
-/// alone enter together. Time: sorting the field, plus the total size of what is returned. Sorted by
-/// saliency times the root of the size, descending.
-std::vector<Component> components(const toposcope::MeshView& mesh, const std::vector<double>& field,
+/// Components of {level >= t} over all t: those just before two merge, and between merges one for each growth by the
+/// factor. Time: that of sorting the levels by counting, a union-find over the edges, and the total size of what is
+/// returned. Sorted by saliency times the root of the size, descending.
+/// \param step  of the field per level
+std::vector<Component> components(const toposcope::MeshView& mesh, const Levels& level, double step,
                                   const Limits& limits);
 
 }  // namespace component_tree

@@ -3,8 +3,9 @@
 // Working sets at all curvature thresholds at once: nodes of the component tree of the curvature field.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "component_tree.h"
@@ -16,9 +17,8 @@ namespace {
 using namespace toposcope;
 
 constexpr OptionSpec options[] = {
-    {"neighbourhood", OptionType::real, "diagonals", "0.02", "0", "0.2",
-     "reach of the curvature estimate; as many rings of edges as fit, at least one"},
-    {"smoothing", OptionType::integer, "", "1", "0", "20", "passes of averaging the curvature over the one-ring"},
+    {"deviation", OptionType::real, "diagonals", "0.015", "0", "0.1",
+     "standard deviation of the kernel that smooths the curvature; at least one pass, at most twelve"},
     {"growth", OptionType::real, "", "1.25", "1.05", "4",
      "a component is offered again each time that it has grown by this factor"},
     {"min_vertices", OptionType::integer, "", "6", "3", "1000", "the least size of a working set"},
@@ -33,11 +33,23 @@ constexpr ProvidedName types[] = {
     {"planar", 0, "components of low curvature magnitude"},
 };
 
+/// Of each type the field is the logarithm of a curvature times the object's size, so that neither unit nor rounding
+/// plays a role.
+constexpr double step = 0.02, flat = 1e-2;
+using Field = double (*)(double maximum, double minimum);
+constexpr std::array<std::pair<const char*, Field>, 3> fields = {{
+    {"convex", [](double maximum, double) { return std::log(std::max(maximum, flat)); }},
+    {"concave", [](double, double minimum) { return std::log(std::max(-minimum, flat)); }},
+    {"planar",
+     [](double maximum, double minimum) {
+       return -std::log(std::max({maximum, -minimum, flat}));
+     }},
+}};
+
 class CurvatureTree final : public WorkingSetClassifier {
  public:
   explicit CurvatureTree(const Options& given)
-      : neighbourhood_(given.real("neighbourhood")),
-        smoothing_(given.integer("smoothing")),
+      : deviation_(given.real("deviation")),
         max_part_(given.real("max_part")),
         limits_{given.real("growth"), static_cast<Index>(given.integer("min_vertices")), 0,
                 static_cast<std::size_t>(given.integer("max_sets"))} {}
@@ -45,35 +57,32 @@ class CurvatureTree final : public WorkingSetClassifier {
   void classify(const MeshView& mesh, Context& context, WorkingSetSink& sink) const override {
     // Lengths relative to the root of the surface area: unlike a box it has no ties to break.
     const double size = std::sqrt(surface_area(mesh));
-    Curvature curvature = turning_curvature(mesh, plane_fit_normals(mesh, context),
-                                            rings_within(mesh, neighbourhood_ * mesh.box.diagonal()), context);
-    smooth_over_ring(mesh, curvature.maximum, smoothing_, context);
-    smooth_over_ring(mesh, curvature.minimum, smoothing_, context);
+    const Curvature curvature = smoothed_curvature(mesh, context);
 
     component_tree::Limits limits = limits_;
     limits.max_vertices = static_cast<Index>(max_part_ * mesh.vertex_count());
-    const double floor = 1e-2;  // of 1 / size: flatter than flat
-    std::vector<double> field(mesh.vertex_count());
-    const auto offer = [&](const char* type) {
-      for (const component_tree::Component& set : component_tree::components(mesh, field, limits))
-        sink.add(type, set.vertices, set.saliency);
-    };
-    const auto log_of = [&](double kappa) { return std::log(std::max(kappa * size, floor)); };
-
-    for (Index v = 0; v < mesh.vertex_count(); ++v) field[v] = log_of(curvature.maximum[v]);
-    offer("convex");
-    context.progress(1.0 / 3);
-    for (Index v = 0; v < mesh.vertex_count(); ++v) field[v] = log_of(-curvature.minimum[v]);
-    offer("concave");
-    context.progress(2.0 / 3);
-    for (Index v = 0; v < mesh.vertex_count(); ++v)
-      field[v] = -log_of(std::max(std::abs(curvature.maximum[v]), std::abs(curvature.minimum[v])));
-    offer("planar");
+    std::array<std::vector<component_tree::Component>, fields.size()> found;
+    context.parallel_for(fields.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        component_tree::Levels level(mesh.vertex_count());
+        for (Index v = 0; v < mesh.vertex_count(); ++v)
+          level[v] = static_cast<std::int32_t>(
+              std::floor(fields[i].second(size * curvature.maximum[v], size * curvature.minimum[v]) / step));
+        found[i] = component_tree::components(mesh, level, step, limits);
+      }
+    });
+    for (std::size_t i = 0; i < fields.size(); ++i)
+      for (const component_tree::Component& set : found[i]) sink.add(fields[i].first, set.vertices, set.saliency);
   }
 
  private:
-  double neighbourhood_;
-  int smoothing_;
+  Curvature smoothed_curvature(const MeshView& mesh, Context& context) const {
+    ShapeOperators operators = fit_shape_operators(mesh, context);
+    diffuse(mesh, operators, diffusion_passes(mesh, deviation_ * mesh.box.diagonal(), 1), context);
+    return principal_curvatures(operators);
+  }
+
+  double deviation_;
   double max_part_;
   component_tree::Limits limits_;
 };

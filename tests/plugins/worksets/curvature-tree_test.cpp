@@ -32,10 +32,9 @@ TEST(CurvatureTree, SetsAreComponentsOfAThreshold) {
   const Mesh mesh(test::make_torus(2, 0.6, 60, 30), "torus");
   const MeshView& view = mesh.view();
   RunContext context;
-  Curvature curvature = turning_curvature(view, plane_fit_normals(view, context),
-                                          rings_within(view, 0.02 * view.box.diagonal()), context);
-  smooth_over_ring(view, curvature.maximum, 1, context);
-  smooth_over_ring(view, curvature.minimum, 1, context);
+  ShapeOperators operators = fit_shape_operators(view, context);
+  diffuse(view, operators, diffusion_passes(view, 0.015 * view.box.diagonal(), 1), context);
+  const Curvature curvature = principal_curvatures(operators);
   const WorkingSets sets = classify(mesh);
   ASSERT_GT(sets.size(), 3u);
   for (std::size_t s = 0; s < sets.size(); ++s) {
