@@ -2,7 +2,7 @@
 
 // How many marked features of real meshes have a working set of their own, whatever a model makes of it later.
 //
-//   coverage DATA PLUGIN [--set OPTION=VALUE]... [--faces N,N,...] [--type-of FEATURE...] [--verbose]
+//   coverage DATA PLUGIN [--set OPTION=VALUE]... [--faces N,N,...] [--scale S] [--pictures FOLDER] [--verbose]
 //
 // DATA holds cup/*.off and airplane/*.off with *.truth.json beside them. A feature is covered when some candidate set
 // holds at least 80 % of its marked vertices (on a normalised mesh: the vertices nearest to the marked points) and at
@@ -23,8 +23,10 @@
 
 #include "base/run_context.h"
 #include "io/mesh_io.h"
+#include "picture.h"
 #include "pipeline/working_sets.h"
 #include "plugin/plugin_host.h"
+#include "toposcope/geometry.h"
 
 namespace {
 
@@ -36,15 +38,15 @@ using Marks = std::vector<std::vector<Vec3>>;  ///< groups of points on the mesh
 
 struct Feature {
   std::string name;
+  int color = 0;  ///< its place in the file, whether other features are missing or not
   Marks groups;
 };
 
-std::vector<Feature> read_marks(const fs::path& file, const TriangleSoup& soup) {
-  std::ifstream stream(file);
-  const json truth = json::parse(stream);
+std::vector<Feature> read_marks(const json& truth, const TriangleSoup& soup) {
   std::vector<Feature> features;
+  int color = 0;
   for (const auto& [name, entry] : truth["features"].items()) {
-    Feature feature{name, {}};
+    Feature feature{name, color++, {}};
     const auto add = [&](const json& group) {
       std::vector<Vec3> points;
       for (const json& v : group.value("vertices", json::array())) points.push_back(soup.positions[v.get<Index>()]);
@@ -71,6 +73,7 @@ Index nearest_vertex(const MeshView& mesh, const Vec3& point) {
 }
 
 struct Best {
+  std::size_t set = 0;
   double held = 0, near = 0;  ///< parts
   std::string type;
   bool covered = false;
@@ -94,11 +97,48 @@ Best cover(const MeshView& mesh, const WorkingSets& sets, const std::vector<Vec3
     }
     held /= wanted;
     near /= static_cast<double>(sets[s].size());
-    const auto worth = [](double h, double n) { return std::min(h / 0.8, 1.0) + std::min(n / 0.5, 1.0); };
-    if (worth(held, near) > worth(best.held, best.near))
-      best = {held, near, sets.type_names[sets.types[s]], held >= 0.8 && near >= 0.5};
+    const bool covered = held >= 0.8 && near >= 0.5;
+    const auto worth = [](double h, double n) { return std::min(h / 0.8, 1.0) + std::min(n / 0.5, 1.0) + 0.1 * h * n; };
+    if (covered > best.covered || (covered == best.covered && worth(held, near) > worth(best.held, best.near)))
+      best = {s, held, near, sets.type_names[sets.types[s]], covered};
   }
   return best;
+}
+
+/// Colour-blind safe (Okabe and Ito).
+constexpr std::array<Rgb, 5> palette = {{{0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {230, 159, 0}, {213, 94, 0}}};
+
+/// The best set of each feature in the feature's colour; grey where none covers.
+class Painter {
+ public:
+  explicit Painter(const MeshView& mesh) : mesh_(mesh), feature_(mesh.vertex_count(), -1) {}
+  void paint(std::span<const Index> set, int feature) {
+    for (Index v : set) feature_[v] = feature;
+  }
+  void draw(bench::Picture& picture, const bench::View& view, int x, int y, int size) const {
+    const auto color = [&](const Triangle& t) -> Rgb {
+      for (const Index v : t)
+        if (feature_[v] >= 0 && feature_[v] == feature_[v == t[0] ? t[1] : t[0]])
+          return palette[static_cast<std::size_t>(feature_[v]) % palette.size()];
+      return {200, 200, 200};
+    };
+    picture.draw(mesh_, color, view, x, y, size);
+  }
+
+ private:
+  const MeshView& mesh_;
+  std::vector<int> feature_;
+};
+
+/// From the side and somewhat above, in the object's own frame.
+bench::View view_of(const json& frame) {
+  const auto vector = [&](const char* name) {
+    return Vec3(frame[name][0].get<double>(), frame[name][1].get<double>(), frame[name][2].get<double>());
+  };
+  if (frame.contains("nose"))
+    return bench::look(vector("nose") + 0.8 * vector("port") + 0.9 * vector("up"), vector("up"));
+  const Vec3 axis = vector("axis");
+  return bench::look(0.8 * any_perpendicular(axis) + 0.65 * axis, axis);
 }
 
 std::optional<Mesh> filtered(const MeshView& mesh, const MeshFilter& filter, Context& context) {
@@ -118,11 +158,95 @@ std::optional<Mesh> filtered(const MeshView& mesh, const MeshFilter& filter, Con
   return Mesh(std::move(*sink.soup), "normalised");
 }
 
+struct Tally {
+  int features = 0, covered = 0;
+  std::vector<std::size_t> sets;  ///< per mesh
+  std::vector<double> times_ms;   ///< of the station classify, per mesh
+  std::string missed;
+};
+
+/// Measures one class of objects at one resolution and draws its row of the picture.
+class Measurement {
+ public:
+  Measurement(PluginHost& host, const std::string& plugin, const std::vector<std::string>& settings)
+      : host_(host), plugin_(plugin) {
+    const PluginManifest& manifest = host.catalog().require(PluginKind::worksets, plugin);
+    std::vector<GivenOption> given;
+    for (const std::string& text : settings)
+      given.push_back({text.substr(0, text.find('=')), text.substr(text.find('=') + 1)});
+    classifier_ = host.worksets(plugin, check_options(manifest.options, given, plugin));
+    for (const ProvidedRow& row : manifest.provides) types_.push_back(row.name);
+  }
+
+  void add(const fs::path& file, int faces, double scale, Tally& tally, bench::Picture& picture, int x, int y) {
+    std::ifstream stream(fs::path(file).replace_extension(".truth.json"));
+    const json truth = json::parse(stream);
+    TriangleSoup soup = read_soup(file);
+    for (Vec3& p : soup.positions) p *= scale;
+    const std::vector<Feature> features = read_marks(truth, soup);
+    Mesh mesh(std::move(soup), file.string());
+    if (faces > 0)
+      if (auto made = normalised(mesh.view(), faces)) mesh = std::move(*made);
+
+    const auto start = std::chrono::steady_clock::now();
+    const WorkingSets sets = classify_mesh(mesh.view(), *classifier_, plugin_, types_, context_);
+    tally.times_ms.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    tally.sets.push_back(sets.size());
+    Painter painter(mesh.view());
+    for (std::size_t f = 0; f < features.size(); ++f) {
+      bool good = true;
+      for (const auto& group : features[f].groups) {
+        const Best best = cover(mesh.view(), sets, group);
+        good = good && best.covered;
+        if (best.covered)
+          painter.paint(sets[best.set], features[f].color);
+        else
+          tally.missed +=
+              fmt::format("  {} {} {}: holds {:.0f} %, near {:.0f} % ({}), {} marks\n", file.stem().string(),
+                          features[f].name, faces, 100 * best.held, 100 * best.near, best.type, group.size());
+      }
+      ++tally.features;
+      tally.covered += good;
+    }
+    painter.draw(picture, view_of(truth["frame"]), x, y, picture_size);
+  }
+
+  static constexpr int picture_size = 150;
+
+ private:
+  std::optional<Mesh> normalised(const MeshView& mesh, int faces) {
+    const PluginManifest& manifest = host_.catalog().require(PluginKind::filters, "normalise");
+    const std::vector<GivenOption> given = {{"faces", std::to_string(faces)}};
+    return filtered(mesh, *host_.filter("normalise", check_options(manifest.options, given, "normalise")), context_);
+  }
+
+  PluginHost& host_;
+  std::string plugin_;
+  std::shared_ptr<const WorkingSetClassifier> classifier_;
+  std::vector<std::string> types_;
+  RunContext context_;
+};
+
+template <class T>
+T median(std::vector<T> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+std::vector<fs::path> meshes(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".off") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"Coverage of marked features by working sets"};
-  fs::path data;
+  fs::path data, pictures;
   std::string plugin;
   std::vector<std::string> settings, classes = {"cup", "airplane"};
   std::vector<int> resolutions = {0};
@@ -133,74 +257,37 @@ int main(int argc, char** argv) {
   app.add_option("--set", settings)->allow_extra_args(false);
   app.add_option("--faces", resolutions, "face counts to normalise to; 0: as given")->delimiter(',');
   app.add_option("--class", classes)->delimiter(',');
-  app.add_option("--scale", scale);
-  app.add_flag("--verbose", verbose);
+  app.add_option("--scale", scale, "a factor on all coordinates");
+  app.add_option("--pictures", pictures, "folder for CLASS.png: a column a mesh, a row a resolution");
+  app.add_flag("--verbose", verbose, "say what is missed");
   CLI11_PARSE(app, argc, argv);
 
   PluginHost host{PluginCatalog({{fs::path(TOPOSCOPE_BUILD_DIR) / "plugins", true}})};
-  const auto given = [](const std::vector<std::string>& texts) {
-    std::vector<GivenOption> options;
-    for (const std::string& text : texts)
-      options.push_back({text.substr(0, text.find('=')), text.substr(text.find('=') + 1)});
-    return options;
-  };
-  const PluginManifest& manifest = host.catalog().require(PluginKind::worksets, plugin);
-  const auto classifier = host.worksets(plugin, check_options(manifest.options, given(settings), plugin));
-  std::vector<std::string> types;
-  for (const ProvidedRow& row : manifest.provides) types.push_back(row.name);
-  RunContext context;
-
+  Measurement measurement(host, plugin, settings);
   fmt::print("| class | faces | features | covered | | sets a mesh: median | most | ms a mesh: median |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
-  for (const int faces : resolutions) {
-    int all = 0, all_covered = 0;
-    for (const std::string& name : classes) {
-      std::vector<fs::path> files;
-      for (const auto& entry : fs::directory_iterator(data / name))
-        if (entry.path().extension() == ".off") files.push_back(entry.path());
-      std::sort(files.begin(), files.end());
-      int features = 0, covered = 0;
-      std::vector<std::size_t> counts;
-      std::vector<double> times;
-      std::string missed;
-      for (const fs::path& file : files) {
-        TriangleSoup soup = read_soup(file);
-        for (Vec3& p : soup.positions) p *= scale;
-        const std::vector<Feature> marks = read_marks(fs::path(file).replace_extension(".truth.json"), soup);
-        Mesh mesh(std::move(soup), file.string());
-        if (faces > 0) {
-          const PluginManifest& filter = host.catalog().require(PluginKind::filters, "normalise");
-          const auto options = check_options(filter.options, given({"faces=" + std::to_string(faces)}), "normalise");
-          if (auto made = filtered(mesh.view(), *host.filter("normalise", options), context)) mesh = std::move(*made);
-        }
-        const auto start = std::chrono::steady_clock::now();
-        const WorkingSets sets = classify_mesh(mesh.view(), *classifier, plugin, types, context);
-        times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
-        counts.push_back(sets.size());
-        for (const Feature& feature : marks) {
-          ++features;
-          bool good = true;
-          for (const auto& group : feature.groups) {
-            const Best best = cover(mesh.view(), sets, group);
-            good = good && best.covered;
-            if (verbose && !best.covered)
-              missed += fmt::format("  {} {} {}: holds {:.0f} %, near {:.0f} % ({}), {} marks\n", file.stem().string(),
-                                    feature.name, faces, 100 * best.held, 100 * best.near, best.type, group.size());
-          }
-          covered += good;
-        }
-      }
-      std::sort(counts.begin(), counts.end());
-      std::sort(times.begin(), times.end());
+  constexpr int size = Measurement::picture_size;
+  std::map<int, std::pair<int, int>> all;  // features and those covered, by resolution
+  for (const std::string& name : classes) {
+    const std::vector<fs::path> files = meshes(data / name);
+    bench::Picture picture(size * static_cast<int>(files.size()), size * static_cast<int>(resolutions.size()));
+    for (std::size_t r = 0; r < resolutions.size(); ++r) {
+      const int faces = resolutions[r];
+      Tally tally;
+      for (std::size_t i = 0; i < files.size(); ++i)
+        measurement.add(files[i], faces, scale, tally, picture, size * static_cast<int>(i), size * static_cast<int>(r));
       fmt::print("| {} | {} | {} | {} | {:.1f} % | {} | {} | {:.0f} |\n", name,
-                 faces == 0 ? "as given" : std::to_string(faces), features, covered, 100.0 * covered / features,
-                 counts[counts.size() / 2], counts.back(), times[times.size() / 2]);
-      if (verbose) fmt::print("{}", missed);
-      all += features;
-      all_covered += covered;
+                 faces == 0 ? "as given" : std::to_string(faces), tally.features, tally.covered,
+                 100.0 * tally.covered / tally.features, median(tally.sets),
+                 *std::max_element(tally.sets.begin(), tally.sets.end()), median(tally.times_ms));
+      if (verbose) fmt::print("{}", tally.missed);
+      std::fflush(stdout);
+      all[faces].first += tally.features;
+      all[faces].second += tally.covered;
     }
-    fmt::print("| all | {} | {} | {} | {:.1f} % | | | |\n", faces == 0 ? "as given" : std::to_string(faces), all,
-               all_covered, 100.0 * all_covered / all);
-    std::fflush(stdout);
+    if (!pictures.empty()) picture.save(pictures / (name + ".png"));
   }
+  for (const int faces : resolutions)
+    fmt::print("| both | {} | {} | {} | {:.1f} % | | | |\n", faces == 0 ? "as given" : std::to_string(faces),
+               all[faces].first, all[faces].second, 100.0 * all[faces].second / all[faces].first);
 }

@@ -3,9 +3,12 @@
 // The path of the data on generated cups, by number of faces: reading, curvature, the whole analysis.
 
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <string>
 
 #include "base/run_context.h"
 #include "io/mesh_io.h"
@@ -37,6 +40,27 @@ void read_binary_ply(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(read_mesh(file).view().mean_edge);
   fs::remove(file);
 }
+
+/// Greatest resident memory since it was made, beyond what was resident then.
+class PeakMemory {
+ public:
+  PeakMemory() {
+    malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << 5;  // the peak starts anew
+    before_ = read("VmRSS:");
+  }
+  std::size_t bytes() const { return read("VmHWM:") - before_; }
+
+ private:
+  static std::size_t read(const std::string& key) {
+    std::ifstream status("/proc/self/status");
+    std::string word;
+    while (status >> word)
+      if (word == key && status >> word) return std::stoull(word) * 1024;
+    return 0;
+  }
+  std::size_t before_ = 0;
+};
 
 const MeshView& torus(Index faces) {
   static std::map<Index, Mesh> made;
@@ -81,8 +105,10 @@ void working_sets(benchmark::State& state) {
   std::vector<std::string> types;
   for (const ProvidedRow& row : manifest.provides) types.push_back(row.name);
   RunContext context;
+  const PeakMemory memory;
   for (auto _ : state)
     benchmark::DoNotOptimize(classify_mesh(mesh, *classifier, manifest.id, types, context).vertices.size());
+  state.counters["peak_bytes_a_vertex"] = static_cast<double>(memory.bytes()) / mesh.vertex_count();
 }
 
 void whole_analysis(benchmark::State& state) {

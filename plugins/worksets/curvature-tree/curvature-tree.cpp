@@ -55,31 +55,34 @@ class CurvatureTree final : public WorkingSetClassifier {
                 static_cast<std::size_t>(given.integer("max_sets"))} {}
 
   void classify(const MeshView& mesh, Context& context, WorkingSetSink& sink) const override {
-    // Lengths relative to the root of the surface area: unlike a box it has no ties to break.
-    const double size = std::sqrt(surface_area(mesh));
-    const Curvature curvature = smoothed_curvature(mesh, context);
-
+    const std::array<component_tree::Levels, fields.size()> levels = read_fields(mesh, context);
     component_tree::Limits limits = limits_;
     limits.max_vertices = static_cast<Index>(max_part_ * mesh.vertex_count());
     std::array<std::vector<component_tree::Component>, fields.size()> found;
     context.parallel_for(fields.size(), 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        component_tree::Levels level(mesh.vertex_count());
-        for (Index v = 0; v < mesh.vertex_count(); ++v)
-          level[v] = static_cast<std::int32_t>(
-              std::floor(fields[i].second(size * curvature.maximum[v], size * curvature.minimum[v]) / step));
-        found[i] = component_tree::components(mesh, level, step, limits);
-      }
+      for (std::size_t i = first; i < last; ++i) found[i] = component_tree::components(mesh, levels[i], step, limits);
     });
     for (std::size_t i = 0; i < fields.size(); ++i)
       for (const component_tree::Component& set : found[i]) sink.add(fields[i].first, set.vertices, set.saliency);
   }
 
  private:
-  Curvature smoothed_curvature(const MeshView& mesh, Context& context) const {
+  std::array<component_tree::Levels, fields.size()> read_fields(const MeshView& mesh, Context& context) const {
     ShapeOperators operators = fit_shape_operators(mesh, context);
     diffuse(mesh, operators, diffusion_passes(mesh, deviation_ * mesh.box.diagonal(), 1), context);
-    return principal_curvatures(operators);
+    const Curvature curvature = principal_curvatures(operators);
+    // Lengths relative to the root of the surface area: unlike a box it has no ties to break.
+    const double size = std::sqrt(surface_area(mesh));
+    std::array<component_tree::Levels, fields.size()> levels;
+    for (component_tree::Levels& level : levels) level.resize(mesh.vertex_count());
+    context.parallel_for(mesh.vertex_count(), 1024, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = 0; i < fields.size(); ++i)
+        for (std::size_t v = first; v < last; ++v) {
+          const double field = fields[i].second(size * curvature.maximum[v], size * curvature.minimum[v]);
+          levels[i][v] = static_cast<std::int32_t>(std::floor(field / step));
+        }
+    });
+    return levels;
   }
 
   double deviation_;
