@@ -35,13 +35,6 @@ double Columns::width(const Vec3& axis) {
   return projection_.maxCoeff() - projection_.minCoeff();
 }
 
-std::pair<Index, Index> Columns::extremes(const Vec3& axis) {
-  project(axis);
-  const auto first = projection_.begin(), last = projection_.end();
-  return {static_cast<Index>(std::find(first, last, projection_.minCoeff()) - first),
-          static_cast<Index>(std::find(first, last, projection_.maxCoeff()) - first)};
-}
-
 FrameSearch::FrameSearch(std::span<const Vec3> points, const Vec3& half_extents) : columns_({}), area_columns_({}) {
   std::vector<Vec3> normalized;
   for (const Vec3& p : points) normalized.push_back(p.cwiseQuotient(half_extents));

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "toposcope/types.h"
@@ -20,8 +19,6 @@ class Columns {
   /// Coordinates along an axis; overwritten by the next call of any member.
   const Eigen::ArrayXd& project(const Vec3& axis);
   double width(const Vec3& axis);
-  /// The first points that lie lowest and highest along an axis.
-  std::pair<Index, Index> extremes(const Vec3& axis);
 
  private:
   Eigen::ArrayXd x_, y_, z_, projection_;

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <numeric>
 
+#include "blocked_points.h"
 #include "convex_hull.h"
 #include "frame_search.h"
 #include "toposcope/geometry.h"
+#include "toposcope/large_array.h"
 
 namespace toposcope {
 namespace {
 
-using geometry::Axes, geometry::Candidate, geometry::Columns, geometry::FrameSearch;
+using geometry::Axes, geometry::BlockedPoints, geometry::Candidate, geometry::FrameSearch;
 
 constexpr std::size_t few_points = 100, most_points = 1024;  ///< of which the whole hull is made: always, at most
 constexpr std::size_t most_extremes = 75;  ///< of the points farthest out, above which only these make the hull
@@ -33,21 +35,21 @@ struct Side {
 
 /// Two points for each of 49 directions spread over the sphere: those farthest out. The directions are those of a set
 /// scaled to a cube, and have all symmetries of the cube, since the signs of principal axes mean nothing.
-std::vector<Vec3> extreme_points(std::span<const Vec3> points, Columns& columns, const Vec3& half_extents) {
+std::vector<Vec3> extreme_points(const BlockedPoints& points, const Vec3& half_extents) {
   std::vector<Index> extremes;
   for (int i = -2; i <= 2; ++i)
     for (int j = -2; j <= 2; ++j)
       for (int k = -2; k <= 2; ++k) {
         const bool first_of_pair = i > 0 || (i == 0 && (j > 0 || (j == 0 && k > 0)));
         if (!first_of_pair || std::gcd(std::gcd(i, j), k) != 1) continue;
-        const auto [low, high] = columns.extremes(Vec3(i, j, k).cwiseQuotient(half_extents));
-        extremes.push_back(low);
-        extremes.push_back(high);
+        const Vec3 axis = Vec3(i, j, k).cwiseQuotient(half_extents);
+        extremes.push_back(points.farthest(-axis));
+        extremes.push_back(points.farthest(axis));
       }
   std::sort(extremes.begin(), extremes.end());
   extremes.erase(std::unique(extremes.begin(), extremes.end()), extremes.end());
   std::vector<Vec3> result;
-  for (Index i : extremes) result.push_back(points[i]);
+  for (Index i : extremes) result.push_back(points.points()[i]);
   return result;
 }
 
@@ -69,9 +71,10 @@ Candidate best_frame(FrameSearch& search) {
 
 /// Frame of the least box around points in space: searched for the hull of some extreme points, which are joined by
 /// the points found farthest outside of the box, or of one tilted a little, until there are none.
-Axes search_axes(std::span<const Vec3> points, Columns& columns, const Vec3& half_extents) {
+Axes search_axes(const BlockedPoints& blocked, const Vec3& half_extents) {
+  const std::span<const Vec3> points = blocked.points();
   std::vector<Vec3> extremes;
-  if (points.size() > few_points) extremes = extreme_points(points, columns, half_extents);
+  if (points.size() > few_points) extremes = extreme_points(blocked, half_extents);
   // Where many directions share an extreme point the hull has few corners: then it is affordable to have them all.
   const bool whole = points.size() <= few_points || (points.size() <= most_points && extremes.size() <= most_extremes);
   FrameSearch search(whole ? points : std::span<const Vec3>(extremes), half_extents);
@@ -80,7 +83,7 @@ Axes search_axes(std::span<const Vec3> points, Columns& columns, const Vec3& hal
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Vec3> grown(search.corners().begin(), search.corners().end());
     const auto look_along = [&](const Vec3& axis) {
-      const auto [low, high] = columns.extremes(axis);
+      const Index low = blocked.farthest(-axis), high = blocked.farthest(axis);
       if (axis.dot(points[high] - points[low]) <= search.width(axis) + rounding * half_extents.maxCoeff()) return;
       grown.push_back(points[low]);
       grown.push_back(points[high]);
@@ -106,26 +109,26 @@ Box oriented_box(std::span<const Vec3> points) {
   if (points.empty()) return box;
   const geometry::PrincipalFrame frame = geometry::principal_frame(points);
   std::vector<Vec3> local;  // in the principal frame
-  local.reserve(points.size());
+  reserve_large(local, points.size());
   for (const Vec3& p : points) {
     const Vec3 d = p - frame.center;
     local.emplace_back(frame.axes[0].dot(d), frame.axes[1].dot(d), frame.axes[2].dot(d));
   }
-  Columns columns(local);
+  const BlockedPoints blocked(std::move(local));
   Axes axes = unit_axes;
-  if (frame.dimension == 3) axes = search_axes(local, columns, frame.half);
+  if (frame.dimension == 3) axes = search_axes(blocked, frame.half);
   if (frame.dimension == 2) {
     std::vector<Eigen::Vector2d> flat;
-    flat.reserve(local.size());
-    for (const Vec3& p : local) flat.push_back(p.head<2>());
+    flat.reserve(points.size());
+    for (const Vec3& p : blocked.points()) flat.push_back(p.head<2>());
     const Eigen::Vector2d along = geometry::least_rectangle(flat);
     axes = {Vec3(along.x(), along.y(), 0), Vec3(-along.y(), along.x(), 0), Vec3::UnitZ()};
   }
 
   std::array<Side, 3> sides;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::ArrayXd& along = columns.project(axes[i]);
-    const double low = along.minCoeff(), high = along.maxCoeff();
+    const double low = axes[i].dot(blocked.points()[blocked.farthest(-axes[i])]);
+    const double high = axes[i].dot(blocked.points()[blocked.farthest(axes[i])]);
     sides[i] = {high - low, (low + high) / 2, axes[i]};
   }
   std::stable_sort(sides.begin(), sides.end(), [](const Side& p, const Side& q) { return p.length > q.length; });

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "toposcope/curvature.h"
+#include "toposcope/large_array.h"
 
 namespace toposcope {
 namespace {
@@ -59,7 +60,7 @@ class SixUnknowns {
 class Neighbourhood {
  public:
   explicit Neighbourhood(const MeshView& mesh)
-      : mesh_(mesh), reached_from_(mesh.vertex_count(), std::numeric_limits<Index>::max()) {}
+      : mesh_(mesh), reached_from_(large_array<Index>(mesh.vertex_count(), std::numeric_limits<Index>::max())) {}
 
   const std::vector<Index>& around(Index p) {
     const auto ring = mesh_.one_ring(p);
@@ -157,7 +158,7 @@ TangentFrame tangent_frame(const Vec3& n) {
 }
 
 std::vector<Vec3> vertex_normals(const MeshView& mesh, Context& context) {
-  std::vector<Vec3> normals(mesh.vertex_count());
+  std::vector<Vec3> normals = large_array<Vec3>(mesh.vertex_count());
   context.parallel_for(mesh.vertex_count(), grain, [&](std::size_t first, std::size_t last) {
     for (Index v = static_cast<Index>(first); v < last; ++v) {
       Vec3 sum = Vec3::Zero();
@@ -177,7 +178,10 @@ std::vector<Vec3> vertex_normals(const MeshView& mesh, Context& context) {
 
 ShapeOperators fit_shape_operators(const MeshView& mesh, Context& context) {
   const std::vector<Vec3> normals = vertex_normals(mesh, context);
-  ShapeOperators operators{normals, std::vector<ShapeOperator>(mesh.vertex_count())};
+  ShapeOperators operators;
+  reserve_large(operators.normals, normals.size());
+  operators.normals = normals;
+  operators.at = large_array<ShapeOperator>(normals.size());
   // Few chunks: each has a mark per vertex of the mesh.
   const std::size_t chunk = std::max<std::size_t>(grain, mesh.vertex_count() / 16);
   context.parallel_for(mesh.vertex_count(), chunk, [&](std::size_t first, std::size_t last) {
@@ -193,7 +197,7 @@ ShapeOperators fit_shape_operators(const MeshView& mesh, Context& context) {
 void diffuse(const MeshView& mesh, ShapeOperators& operators, int passes, Context& context) {
   if (passes == 0) return;
   const std::vector<Vec3>& normals = operators.normals;
-  std::vector<DoubleTurn> turns(mesh.neighbors.size());
+  std::vector<DoubleTurn> turns = large_array<DoubleTurn>(mesh.neighbors.size());
   context.parallel_for(mesh.vertex_count(), grain, [&](std::size_t first, std::size_t last) {
     for (Index p = static_cast<Index>(first); p < last; ++p) {
       const TangentFrame frame = tangent_frame(normals[p]);
@@ -201,7 +205,7 @@ void diffuse(const MeshView& mesh, ShapeOperators& operators, int passes, Contex
         turns[i] = carry(normals[mesh.neighbors[i]], normals[p], frame);
     }
   });
-  std::vector<ShapeOperator> next(operators.at.size());
+  std::vector<ShapeOperator> next = large_array<ShapeOperator>(operators.at.size());
   for (int pass = 0; pass < passes && !context.cancelled(); ++pass) {
     context.parallel_for(mesh.vertex_count(), grain, [&](std::size_t first, std::size_t last) {
       for (Index p = static_cast<Index>(first); p < last; ++p) {
@@ -232,8 +236,8 @@ int diffusion_passes(const MeshView& mesh, double deviation, int least) {
 
 Curvature principal_curvatures(const ShapeOperators& operators) {
   Curvature curvature;
-  curvature.maximum.reserve(operators.at.size());
-  curvature.minimum.reserve(operators.at.size());
+  reserve_large(curvature.maximum, operators.at.size());
+  reserve_large(curvature.minimum, operators.at.size());
   for (const auto& [mean, x, y] : operators.at) {
     const double half = std::sqrt(x * x + y * y);
     curvature.maximum.push_back(mean + half);

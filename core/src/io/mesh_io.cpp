@@ -65,8 +65,8 @@ TriangleSoup read_soup(const std::filesystem::path& path) {
                   "'; use .ply, .obj, .stl or .off");
 }
 
-Mesh read_mesh(const std::filesystem::path& path) {
-  return Mesh(read_soup(path), path.string());
+Mesh read_mesh(const std::filesystem::path& path, Context* context) {
+  return Mesh(read_soup(path), path.string(), context);
 }
 
 }  // namespace toposcope

@@ -17,7 +17,7 @@ namespace toposcope {
 TriangleSoup read_soup(const std::filesystem::path& path);
 
 /// Reads and checks.
-Mesh read_mesh(const std::filesystem::path& path);
+Mesh read_mesh(const std::filesystem::path& path, Context* context = nullptr);
 
 using Rgb = std::array<std::uint8_t, 3>;
 

@@ -2,32 +2,27 @@
 #include "mesh/mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <stdexcept>
 #include <string>
 
 #include "base/errors.h"
 #include "toposcope/geometry.h"
+#include "toposcope/large_array.h"
 
 namespace toposcope {
 namespace {
+
+constexpr std::size_t grain = 1 << 16;
 
 /// Beyond these extents squares of lengths and their products leave the range of a double.
 constexpr double smallest_extent = 1e-75;
 constexpr double largest_extent = 1e75;
 
-void check(const TriangleSoup& soup, const std::string& name) {
-  const std::size_t limit = std::numeric_limits<Index>::max() / 6;  // six directed edges a face
-  if (soup.positions.empty()) throw MeshError(name + ": no vertex; is this the right file?");
-  if (soup.triangles.empty())
-    throw MeshError(name + ": " + std::to_string(soup.positions.size()) +
-                    " vertices but no face with three corners; a point cloud has to be meshed first");
-  if (soup.positions.size() > limit || soup.triangles.size() > limit)
-    throw MeshError(name + ": more than " + std::to_string(limit) + " vertices or faces; decimate the mesh first");
-  if (soup.face_origin.size() != soup.triangles.size())
-    throw MeshError(name + ": " + std::to_string(soup.triangles.size()) + " triangles but " +
-                    std::to_string(soup.face_origin.size()) + " face origins; give one origin for each triangle");
+/// \throw MeshError  always: of the first vertex or triangle that is not as it must be
+[[noreturn]] void find_fault(const TriangleSoup& soup, const std::string& name) {
   for (std::size_t v = 0; v < soup.positions.size(); ++v)
     if (!soup.positions[v].allFinite())
       throw MeshError(name + ": vertex " + std::to_string(v) +
@@ -42,13 +37,43 @@ void check(const TriangleSoup& soup, const std::string& name) {
                       std::to_string(soup.face_origin[f]) + " but the input has " + std::to_string(soup.input_faces) +
                       " faces");
   }
+  throw std::logic_error(name + ": a fault that is none");
+}
+
+void check(const TriangleSoup& soup, const std::string& name, Context* context) {
+  const std::size_t limit = std::numeric_limits<Index>::max() / 6;  // six directed edges a face
+  if (soup.positions.empty()) throw MeshError(name + ": no vertex; is this the right file?");
+  if (soup.triangles.empty())
+    throw MeshError(name + ": " + std::to_string(soup.positions.size()) +
+                    " vertices but no face with three corners; a point cloud has to be meshed first");
+  if (soup.positions.size() > limit || soup.triangles.size() > limit)
+    throw MeshError(name + ": more than " + std::to_string(limit) + " vertices or faces; decimate the mesh first");
+  if (soup.face_origin.size() != soup.triangles.size())
+    throw MeshError(name + ": " + std::to_string(soup.triangles.size()) + " triangles but " +
+                    std::to_string(soup.face_origin.size()) + " face origins; give one origin for each triangle");
+  // In parallel it is only seen that something is wrong; what is wrong first is then found in order.
+  std::atomic<bool> wrong = false;
+  for_chunks(context, soup.positions.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v)
+      if (!soup.positions[v].allFinite()) wrong = true;
+  });
+  for_chunks(context, soup.triangles.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f) {
+      const auto& [a, b, c] = soup.triangles[f];
+      if (std::max({a, b, c}) >= soup.positions.size() || soup.face_origin[f] >= soup.input_faces) wrong = true;
+    }
+  });
+  if (wrong) find_fault(soup, name);
+}
+
+bool repeats_a_vertex(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
 void drop_degenerate(TriangleSoup& soup, const std::string& name) {
   std::size_t kept = 0;
   for (std::size_t f = 0; f < soup.triangles.size(); ++f) {
-    const auto& [a, b, c] = soup.triangles[f];
-    if (a == b || b == c || c == a) continue;
+    if (repeats_a_vertex(soup.triangles[f])) continue;
     soup.triangles[kept] = soup.triangles[f];
     soup.face_origin[kept++] = soup.face_origin[f];
   }
@@ -57,60 +82,12 @@ void drop_degenerate(TriangleSoup& soup, const std::string& name) {
   soup.face_origin.resize(kept);
 }
 
-/// Faces around each vertex, by counting sort: rows come out ascending.
-void build_face_rows(const TriangleSoup& soup, std::vector<Index>& offsets, std::vector<Index>& faces) {
-  offsets.assign(soup.positions.size() + 1, 0);
-  for (const Triangle& t : soup.triangles)
-    for (Index v : t) ++offsets[v + 1];
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  faces.resize(3 * soup.triangles.size());
-  std::vector<Index> next(offsets.begin(), offsets.end() - 1);
-  for (Index f = 0; f < soup.triangles.size(); ++f)
-    for (Index v : soup.triangles[f]) faces[next[v]++] = f;
-}
-
-/// One-rings in linear time: "w is a neighbour of v" is symmetric, so visiting v in ascending order and appending v
-/// to the row of each w fills every row in ascending order, and a repeated v is always the row's last entry.
-void build_one_rings(const TriangleSoup& soup, const std::vector<Index>& face_offsets, const std::vector<Index>& faces,
-                     std::vector<Index>& offsets, std::vector<Index>& neighbors) {
-  const Index count = static_cast<Index>(soup.positions.size());
-  neighbors.resize(6 * soup.triangles.size());  // a vertex of k faces has at most 2k neighbours
-  std::vector<Index> length(count, 0);
-  for (Index v = 0; v < count; ++v)
-    for (Index i = face_offsets[v]; i < face_offsets[v + 1]; ++i)
-      for (Index w : soup.triangles[faces[i]]) {
-        if (w == v) continue;
-        Index* row = neighbors.data() + 2 * std::size_t{face_offsets[w]};
-        if (length[w] == 0 || row[length[w] - 1] != v) row[length[w]++] = v;
-      }
-  offsets.assign(count + 1, 0);
-  for (Index v = 0; v < count; ++v) {
-    const Index* row = neighbors.data() + 2 * std::size_t{face_offsets[v]};
-    for (Index i = 0; i < length[v]; ++i) neighbors[offsets[v] + i] = row[i];  // never ahead of what is still to come
-    offsets[v + 1] = offsets[v] + length[v];
-  }
-  neighbors.resize(offsets.back());
-  neighbors.shrink_to_fit();
-}
-
-double mean_edge_length(const MeshView& mesh) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (Index v = 0; v < mesh.vertex_count(); ++v)
-    for (Index w : mesh.one_ring(v))
-      if (v < w) {
-        sum += (mesh.positions[w] - mesh.positions[v]).norm();
-        ++count;
-      }
-  return sum / static_cast<double>(count);
-}
-
 /// Only vertices that a face uses belong to the object.
-Box box_of_surface(const MeshView& mesh, const std::string& name) {
+Box box_of_surface(const TriangleSoup& soup, const Rows& faces, const std::string& name) {
   std::vector<Vec3> used;
-  used.reserve(mesh.positions.size());
-  for (Index v = 0; v < mesh.vertex_count(); ++v)
-    if (!mesh.faces_of(v).empty()) used.push_back(mesh.positions[v]);
+  reserve_large(used, soup.positions.size());
+  for (std::size_t v = 0; v < soup.positions.size(); ++v)
+    if (faces.offsets[v] != faces.offsets[v + 1]) used.push_back(soup.positions[v]);
   Vec3 low = used.front(), high = used.front();
   for (const Vec3& p : used) {
     low = low.cwiseMin(p);
@@ -126,19 +103,20 @@ Box box_of_surface(const MeshView& mesh, const std::string& name) {
 
 }  // namespace
 
-Mesh::Mesh(TriangleSoup soup, const std::string& name) : soup_(std::move(soup)) {
-  check(soup_, name);
-  drop_degenerate(soup_, name);
-  build_face_rows(soup_, face_offsets_, faces_);
-  build_one_rings(soup_, face_offsets_, faces_, neighbor_offsets_, neighbors_);
+Mesh::Mesh(TriangleSoup soup, const std::string& name, Context* context) : soup_(std::move(soup)) {
+  check(soup_, name, context);
+  if (std::any_of(soup_.triangles.begin(), soup_.triangles.end(), repeats_a_vertex)) drop_degenerate(soup_, name);
+  faces_ = faces_around_vertices(soup_.positions.size(), soup_.triangles, context);
+  OneRings rings = one_rings(soup_.positions, soup_.triangles, faces_, context,
+                             [&] { view_.box = box_of_surface(soup_, faces_, name); });
+  neighbors_ = std::move(rings.rows);
   view_.positions = soup_.positions;
   view_.triangles = soup_.triangles;
-  view_.neighbor_offsets = neighbor_offsets_;
-  view_.neighbors = neighbors_;
-  view_.face_offsets = face_offsets_;
-  view_.faces = faces_;
-  view_.box = box_of_surface(view_, name);
-  view_.mean_edge = mean_edge_length(view_);
+  view_.neighbor_offsets = neighbors_.offsets;
+  view_.neighbors = neighbors_.entries;
+  view_.face_offsets = faces_.offsets;
+  view_.faces = faces_.entries;
+  view_.mean_edge = rings.mean_edge;
 }
 
 }  // namespace toposcope

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "mesh/adjacency.h"
 #include "toposcope/mesh_view.h"
 
 namespace toposcope {
@@ -19,10 +20,11 @@ struct TriangleSoup {
 /// A checked mesh with adjacency. Immutable.
 class Mesh {
  public:
-  /// \param name  for messages: the file's name
+  /// \param name     for messages: the file's name
+  /// \param context  null: in the calling thread alone; the mesh is the same
   /// \throw MeshError  no vertex, no face, a position that is not finite, an index out of range, all faces
   ///        degenerate, no extent. Faces that repeat a vertex are dropped.
-  Mesh(TriangleSoup soup, const std::string& name);
+  Mesh(TriangleSoup soup, const std::string& name, Context* context = nullptr);
 
   const MeshView& view() const { return view_; }
   std::span<const Index> face_origin() const { return soup_.face_origin; }
@@ -33,7 +35,7 @@ class Mesh {
 
  private:
   TriangleSoup soup_;
-  std::vector<Index> neighbor_offsets_, neighbors_, face_offsets_, faces_;
+  Rows faces_, neighbors_;
   MeshView view_;  ///< spans into the vectors above, whose buffers survive a move
 };
 

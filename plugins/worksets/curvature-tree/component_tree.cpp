@@ -7,6 +7,8 @@
 #include <limits>
 #include <tuple>
 
+#include "toposcope/large_array.h"
+
 namespace component_tree {
 namespace {
 
@@ -16,7 +18,11 @@ constexpr Index none = std::numeric_limits<Index>::max();
 /// the end of an earlier level are for ever the first ones from its head.
 class Forest {
  public:
-  explicit Forest(Index count) : parent_(count, none), next_(count, none), tail_(count), size_(count, 1) {}
+  explicit Forest(Index count)
+      : parent_(toposcope::large_array<Index>(count, none)),
+        next_(toposcope::large_array<Index>(count, none)),
+        tail_(toposcope::large_array<Index>(count)),
+        size_(toposcope::large_array<Index>(count, 1U)) {}
 
   bool contains(Index v) const { return parent_[v] != none; }
   void insert(Index v) {
@@ -83,7 +89,7 @@ std::vector<Index> sorted_by_level(const Levels& level) {
   std::vector<Index> place(static_cast<std::size_t>(std::int64_t{top} - *low) + 2, 0);
   for (std::int32_t l : level) ++place[static_cast<std::size_t>(top - l) + 1];
   for (std::size_t i = 1; i < place.size(); ++i) place[i] += place[i - 1];
-  std::vector<Index> order(level.size());
+  std::vector<Index> order = toposcope::large_array<Index>(level.size());
   for (Index v = 0; v < level.size(); ++v) order[place[static_cast<std::size_t>(top - level[v])]++] = v;
   return order;
 }
@@ -97,7 +103,7 @@ class Flood {
         step_(step),
         limits_(limits),
         forest_(mesh.vertex_count()),
-        past_(mesh.vertex_count()) {}
+        past_(toposcope::large_array<Past>(mesh.vertex_count())) {}
 
   void run() {
     const std::vector<Index> order = sorted_by_level(level_);

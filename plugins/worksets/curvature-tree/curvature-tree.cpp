@@ -10,6 +10,7 @@
 
 #include "component_tree.h"
 #include "toposcope/curvature.h"
+#include "toposcope/large_array.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -74,7 +75,7 @@ class CurvatureTree final : public WorkingSetClassifier {
     // Lengths relative to the root of the surface area: unlike a box it has no ties to break.
     const double size = std::sqrt(surface_area(mesh));
     std::array<component_tree::Levels, fields.size()> levels;
-    for (component_tree::Levels& level : levels) level.resize(mesh.vertex_count());
+    for (component_tree::Levels& level : levels) level = large_array<std::int32_t>(mesh.vertex_count());
     context.parallel_for(mesh.vertex_count(), 1024, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = 0; i < fields.size(); ++i)
         for (std::size_t v = first; v < last; ++v) {
