@@ -18,6 +18,7 @@ struct RepairReport {
   Index flat_faces = 0;        ///< of area zero, kept: removing them would open the surface
   Index duplicate_faces = 0;   ///< removed: of the same three corners as another one
   Index split_edges = 0;       ///< had more than two faces, or two that could not be joined
+  Index isolated_faces = 0;    ///< taken out of their surroundings, where splitting edges was not enough
   Index split_vertices = 0;    ///< had more than one fan of faces
   Index turned_faces = 0;      ///< turned over, so that neighbours agree and the outside is outside
   Index cut_edges = 0;         ///< opened, since the surface has only one side (a Moebius strip)
@@ -33,11 +34,14 @@ struct RepairReport {
   bool changed() const;
   /// Whether something was done that a user should hear of: more than merging, dropping what is empty, or turning
   /// faces.
-  bool notable() const { return non_finite_faces + split_edges + split_vertices + cut_edges + flat_faces > 0; }
+  bool notable() const {
+    return non_finite_faces + split_edges + isolated_faces + split_vertices + cut_edges + flat_faces > 0;
+  }
 };
 
 /// Makes of any triangles a consistently oriented manifold with border, as much like the input as can be. A clean mesh
-/// stays as it is, index by index; repairing twice changes nothing more. `face_origin` goes along. Near-linear time.
+/// stays as it is, index by index. Repairing twice changes nothing more, unless edges of more than two faces leave
+/// several ways to pair them. `face_origin` goes along. Near-linear time.
 /// \throw MeshError  nothing is left, or most faces have a corner that is not finite
 RepairReport repair(TriangleSoup& soup, const std::string& name);
 

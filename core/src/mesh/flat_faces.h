@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh/mesh.h"
+
+namespace toposcope {
+
+struct FlatFaces {
+  Index removed = 0;  ///< flipped with the neighbour at their longest side, or dropped at the border
+  Index kept = 0;     ///< neither could be done without changing the surface
+};
+
+/// Removes faces whose three corners lie on a line, without opening the surface.
+/// \param soup  a consistently oriented manifold with border; stays one
+FlatFaces remove_flat_faces(TriangleSoup& soup);
+
+}  // namespace toposcope

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/repair.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/errors.h"
+#include "mesh/fans.h"
+#include "mesh/flat_faces.h"
+#include "mesh/gluing.h"
+#include "mesh/orientation.h"
+#include "mesh/weld.h"
+#include "toposcope/large_array.h"
+
+namespace toposcope {
+namespace {
+
+/// Faces of whose corners so many are not finite are no scan with holes but a damaged file.
+constexpr double most_non_finite = 0.5;
+
+/// Keeps the faces that `keep` accepts, in order.
+template <class Keep>
+Index drop_faces(TriangleSoup& soup, std::vector<Triangle>& welded, const Keep& keep) {
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < soup.triangles.size(); ++f) {
+    if (!keep(static_cast<Index>(f))) continue;
+    soup.triangles[kept] = soup.triangles[f];
+    soup.face_origin[kept] = soup.face_origin[f];
+    welded[kept++] = welded[f];
+  }
+  const auto dropped = static_cast<Index>(soup.triangles.size() - kept);
+  soup.triangles.resize(kept);
+  soup.face_origin.resize(kept);
+  welded.resize(kept);
+  return dropped;
+}
+
+/// For each face whether an earlier one has the same corners. Faces with equal corners meet in the row of the least.
+std::vector<bool> find_duplicates(std::span<const Triangle> welded, std::size_t vertices) {
+  std::vector<Index> offsets = large_array<Index>(vertices + 1);
+  const auto sorted = [&](Index f) {
+    Triangle t = welded[f];
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  const auto least = [&](Index f) { return std::min({welded[f][0], welded[f][1], welded[f][2]}); };
+  for (Index f = 0; f < welded.size(); ++f) ++offsets[least(f) + 1];
+  for (std::size_t v = 1; v < offsets.size(); ++v) offsets[v] += offsets[v - 1];
+  std::vector<Index> row = large_array<Index>(welded.size()), place = offsets;
+  for (Index f = 0; f < welded.size(); ++f) row[place[least(f)]++] = f;
+  std::vector<bool> duplicate(welded.size(), false);
+  std::vector<std::pair<Triangle, Index>> faces;
+  for (std::size_t v = 0; v + 1 < offsets.size(); ++v) {
+    if (offsets[v + 1] - offsets[v] < 2) continue;
+    faces.clear();
+    for (Index i = offsets[v]; i < offsets[v + 1]; ++i) faces.emplace_back(sorted(row[i]), row[i]);
+    std::sort(faces.begin(), faces.end());
+    for (std::size_t i = 1; i < faces.size(); ++i)
+      if (faces[i].first == faces[i - 1].first) duplicate[faces[i].second] = true;
+  }
+  return duplicate;
+}
+
+/// Drops faces that are not there, twice there or not finite. \return the corners of the others, equal where vertices
+/// lie at one place
+std::vector<Triangle> clean(TriangleSoup& soup, std::span<const Index> first, const std::string& name,
+                            RepairReport& report) {
+  std::vector<bool> finite(soup.positions.size()), referenced(soup.positions.size(), false);
+  for (std::size_t v = 0; v < finite.size(); ++v) finite[v] = soup.positions[v].allFinite();
+  std::vector<Triangle> welded;
+  reserve_large(welded, soup.triangles.size());
+  for (const Triangle& t : soup.triangles) {
+    for (Index v : t) referenced[v] = true;
+    welded.push_back({first[t[0]], first[t[1]], first[t[2]]});
+  }
+  for (std::size_t v = 0; v < finite.size(); ++v) {
+    report.non_finite_vertices += !finite[v];
+    report.unreferenced_vertices += finite[v] && !referenced[v] && first[v] == v;
+  }
+  const auto input_faces = static_cast<double>(soup.triangles.size());
+  if (report.non_finite_vertices > 0)
+    report.non_finite_faces = drop_faces(soup, welded, [&](Index f) {
+      return std::all_of(welded[f].begin(), welded[f].end(), [&](Index v) { return finite[v]; });
+    });
+  if (report.non_finite_faces > most_non_finite * input_faces)
+    throw MeshError(name + ": " + std::to_string(report.non_finite_faces) +
+                    " faces have a corner that is not a finite number; the file is damaged, export it again");
+  report.degenerate_faces = drop_faces(soup, welded, [&](Index f) {
+    const auto& [a, b, c] = welded[f];
+    return a != b && b != c && c != a;
+  });
+  const std::vector<bool> duplicate = find_duplicates(welded, soup.positions.size());
+  report.duplicate_faces = drop_faces(soup, welded, [&](Index f) { return !duplicate[f]; });
+  if (soup.triangles.empty())
+    throw MeshError(name + ": every face has two corners at one place, nothing is left of the surface");
+  return welded;
+}
+
+/// Where sheets that were split stay together around both ends of an edge, their faces still share it by their numbers.
+/// Such a face is taken out of its surroundings. \return how many were
+Index isolate_faces(TriangleSoup& soup, const Fans& fans, Gluing& gluing) {
+  std::vector<Triangle> numbered(soup.triangles.size());
+  for (Index side = 0; side < fans.vertex.size(); ++side) numbered[side / 3][side % 3] = fans.vertex[side];
+  std::vector<std::array<Index, 3>> edges;  // lesser end, greater end, side
+  for (Index side = 0; side < fans.vertex.size(); ++side) {
+    const auto [low, high] = std::minmax(fans.vertex[side], fans.vertex[Gluing::next(side)]);
+    edges.push_back({low, high, side});
+  }
+  std::sort(edges.begin(), edges.end());
+  Index isolated = 0;
+  const auto starts_low = [&](const std::array<Index, 3>& e) { return fans.vertex[e[2]] == e[0]; };
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    while (end < edges.size() && edges[end][0] == edges[begin][0] && edges[end][1] == edges[begin][1]) ++end;
+    if (end - begin == 1 || (end - begin == 2 && starts_low(edges[begin]) != starts_low(edges[begin + 1]))) continue;
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      ++isolated;
+      for (Index k = 0; k < 3; ++k)
+        if (Index& other = gluing.opposite[3 * (edges[i][2] / 3) + k]; other != Gluing::none)
+          gluing.opposite[std::exchange(other, Gluing::none)] = Gluing::none;
+    }
+  }
+  return isolated;
+}
+
+/// Gives the corners their fans' vertices.
+void renumber(TriangleSoup& soup, const Fans& fans) {
+  for (Index side = 0; side < fans.vertex.size(); ++side) soup.triangles[side / 3][side % 3] = fans.vertex[side];
+  for (std::size_t v = soup.positions.size(); v < fans.source.size(); ++v) {
+    const Vec3 position = soup.positions[fans.source[v]];
+    soup.positions.push_back(position);
+  }
+}
+
+void remove_unreferenced(TriangleSoup& soup) {
+  std::vector<bool> used(soup.positions.size(), false);
+  for (const Triangle& t : soup.triangles)
+    for (Index v : t) used[v] = true;
+  if (std::find(used.begin(), used.end(), false) == used.end()) return;
+  std::vector<Index> number = large_array<Index>(used.size());
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (!used[v]) continue;
+    soup.positions[kept] = soup.positions[v];
+    number[v] = static_cast<Index>(kept++);
+  }
+  soup.positions.resize(kept);
+  for (Triangle& t : soup.triangles)
+    for (Index& v : t) v = number[v];
+}
+
+void count_topology(const TriangleSoup& soup, const Gluing& gluing, const Components& components,
+                    RepairReport& report) {
+  report.components = components.count;
+  std::vector<bool> open(components.count, false), traced(gluing.opposite.size(), false);
+  Index edges = 0;
+  for (Index side = 0; side < gluing.opposite.size(); ++side) {
+    edges += gluing.opposite[side] == Gluing::none || side < gluing.opposite[side];
+    if (gluing.opposite[side] != Gluing::none) continue;
+    ++report.border_edges;
+    open[components.of_face[side / 3]] = true;
+    if (traced[side]) continue;
+    ++report.holes;
+    for (Index s = side; !traced[s];) {  // along the border
+      traced[s] = true;
+      for (s = Gluing::next(s); gluing.opposite[s] != Gluing::none;) s = Gluing::next(gluing.opposite[s]);
+    }
+  }
+  report.closed_components = static_cast<Index>(std::count(open.begin(), open.end(), false));
+  report.euler =
+      static_cast<long>(soup.positions.size()) - static_cast<long>(edges) + static_cast<long>(soup.triangles.size());
+  report.genus = (2 * static_cast<long>(report.components) - report.holes - report.euler) / 2;
+}
+
+}  // namespace
+
+bool RepairReport::changed() const {
+  return merged_vertices + unreferenced_vertices + non_finite_vertices + non_finite_faces + degenerate_faces +
+             duplicate_faces + split_edges + isolated_faces + split_vertices + turned_faces + cut_edges >
+         0;
+}
+
+RepairReport repair(TriangleSoup& soup, const std::string& name) {
+  RepairReport report;
+  const std::vector<Index> first = first_at_same_place(soup.positions);
+  std::vector<Triangle> welded = clean(soup, first, name, report);
+
+  Gluing gluing = glue(soup.positions, welded, soup.triangles);
+  report.split_edges = gluing.split_edges;
+  Components components = orient(soup.positions, welded, soup.triangles, gluing);
+  report.turned_faces = components.turned_faces;
+  report.cut_edges = components.cut_edges;
+  Fans fans = separate_fans(soup.positions.size(), soup.triangles, gluing);
+  if (report.split_edges + report.cut_edges > 0)
+    while (const Index isolated = isolate_faces(soup, fans, gluing)) {
+      report.isolated_faces += isolated;
+      fans = separate_fans(soup.positions.size(), soup.triangles, gluing);
+    }
+  report.split_vertices = fans.split_vertices;
+  std::vector<bool> kept(fans.source.size(), false);
+  for (Index v : fans.vertex) kept[v] = true;
+  for (std::size_t v = 0; v < first.size(); ++v) report.merged_vertices += first[v] != v && !kept[v];
+  renumber(soup, fans);
+
+  const FlatFaces flat = remove_flat_faces(soup);
+  report.degenerate_faces += flat.removed;
+  report.flat_faces = flat.kept;
+  remove_unreferenced(soup);
+  // What was split or flipped hangs together in another way now.
+  if (report.split_edges + report.cut_edges + flat.removed > 0) {
+    gluing = glue(soup.positions, soup.triangles, soup.triangles);
+    std::vector<Triangle> same = soup.triangles;
+    components = orient(soup.positions, soup.triangles, same, gluing);
+  }
+  count_topology(soup, gluing, components, report);
+  return report;
+}
+
+}  // namespace toposcope
