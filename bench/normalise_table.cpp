@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the filter normalise makes of meshes, as a Markdown table: normalise_table [--faces N,N,...] [--set OPTION=VALUE]
+// What the filter normalise makes of meshes, as a Markdown table: normalise_table [--faces N,N,...] [--set
+// OPTION=VALUE]
 // [--write FOLDER] MESH...
 
 #include <algorithm>
@@ -43,8 +44,8 @@ double one_sided(const MeshView& from, const ClosestFace& to, double step, Conte
       const int across = std::max(1, static_cast<int>(std::ceil((c - a).norm() / step)));
       for (int i = 0; i <= along; ++i)
         for (int j = 0; j * along <= across * (along - i); ++j)
-          greatest[f] = std::max(
-              greatest[f], to(a + double(i) / along * (b - a) + double(j) / across * (c - a)).squared_distance);
+          greatest[f] = std::max(greatest[f],
+                                 to(a + double(i) / along * (b - a) + double(j) / across * (c - a)).squared_distance);
       for (int j = 0; j <= along; ++j)
         greatest[f] = std::max(greatest[f], to(b + double(j) / along * (c - b)).squared_distance);
     }
@@ -142,13 +143,15 @@ int main(int argc, char** argv) {
     }
   }
   PluginHost host{PluginCatalog({{fs::path(TOPOSCOPE_BUILD_DIR) / "plugins", true}})};
-  RunContext context({.threads = 0,
-                      .seed = 1,
-                      .time_limit_s = {},
-                      .log = [](LogLevel, std::string_view line) { std::fprintf(stderr, "%s\n", std::string(line).c_str()); },
-                      .progress = {}});
-  std::puts("| mesh | target | faces | CV of edges | mean edge, % of diagonal | min / mean | max / mean | "
-            "Hausdorff to, from input, % | genus | components | boundaries | manifold | ms |");
+  RunContext context(
+      {.threads = 0,
+       .seed = 1,
+       .time_limit_s = {},
+       .log = [](LogLevel, std::string_view line) { std::fprintf(stderr, "%s\n", std::string(line).c_str()); },
+       .progress = {}});
+  std::puts(
+      "| mesh | target | faces | CV of edges | mean edge, % of diagonal | min / mean | max / mean | "
+      "Hausdorff to, from input, % | genus | components | boundaries | manifold | ms |");
   std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (const fs::path& file : files) try {
       const Mesh input = read_mesh(file);
@@ -160,7 +163,8 @@ int main(int argc, char** argv) {
         std::vector<GivenOption> given = settings;
         given.push_back({"faces", std::to_string(faces)});
         const auto plugin = host.filter(
-            "normalise", check_options(host.catalog().require(PluginKind::filters, "normalise").options, given, "table"));
+            "normalise",
+            check_options(host.catalog().require(PluginKind::filters, "normalise").options, given, "table"));
         Caught caught;
         const auto begin = std::chrono::steady_clock::now();
         plugin->apply(input.view(), context, caught);

@@ -125,4 +125,17 @@ ClosestFace::Hit ClosestFace::operator()(const Vec3& x) const {
   return best;
 }
 
+std::vector<Index> nearest_faces(const MeshView& input, std::span<const Vec3> positions,
+                                 std::span<const Triangle> triangles, Context& context) {
+  const ClosestFace closest(input.positions, input.triangles);
+  std::vector<Index> nearest(triangles.size());
+  context.parallel_for(triangles.size(), 512, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f) {
+      const Triangle& t = triangles[f];
+      nearest[f] = closest((positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3).face;
+    }
+  });
+  return nearest;
+}
+
 }  // namespace toposcope

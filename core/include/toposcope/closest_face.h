@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "toposcope/context.h"
 #include "toposcope/half_edges.h"
-#include "toposcope/types.h"
 
 namespace toposcope {
 
@@ -18,8 +18,8 @@ struct TrianglePoint {
 };
 TrianglePoint closest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x);
 
-/// Nearest face of a set of triangles: a tree of axis-aligned boxes. Immutable; safe in any thread. The spans that it is
-/// made from must outlive it.
+/// Nearest face of a set of triangles: a tree of axis-aligned boxes. Immutable; safe in any thread. The spans that it
+/// is made from must outlive it.
 class ClosestFace {
  public:
   ClosestFace(std::span<const Vec3> positions, std::span<const Triangle> triangles);
@@ -44,5 +44,9 @@ class ClosestFace {
   std::vector<Index> order_;
   std::vector<Node> nodes_;
 };
+
+/// For each triangle of a mesh made from `input`, the face of the input nearest to its centre.
+std::vector<Index> nearest_faces(const MeshView& input, std::span<const Vec3> positions,
+                                 std::span<const Triangle> triangles, Context& context);
 
 }  // namespace toposcope

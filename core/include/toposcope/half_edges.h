@@ -23,8 +23,8 @@ constexpr Index previous_half_edge(Index h) {
 
 /// For each half-edge the opposite one, `no_index` on the boundary.
 /// \throw std::invalid_argument where the mesh is not a consistently oriented manifold with boundary: an edge of more
-///        than two faces, two faces that run along an edge in the same direction, a vertex whose faces make more than one
-///        fan. The message names the place and the remedy.
+///        than two faces, two faces that run along an edge in the same direction, a vertex whose faces make more than
+///        one fan. The message names the place and the remedy.
 std::vector<Index> opposite_half_edges(const MeshView& mesh);
 
 }  // namespace toposcope

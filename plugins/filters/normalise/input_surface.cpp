@@ -146,9 +146,7 @@ InputSurface::Place InputSurface::on_surface(Index face, const Vec3& x) const {
 }
 
 InputSurface::Place InputSurface::on_curve(Index curve, const Vec3& x) const {
-  const auto closest = [&](Index h) {
-    return closest_on_segment(mesh_.positions[from(h)], mesh_.positions[to(h)], x);
-  };
+  const auto closest = [&](Index h) { return closest_on_segment(mesh_.positions[from(h)], mesh_.positions[to(h)], x); };
   SegmentPoint best = closest(curve);
   double least = (best.point - x).squaredNorm();
   for (bool nearer = true; nearer;) {

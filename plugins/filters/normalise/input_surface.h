@@ -9,8 +9,8 @@
 
 namespace toposcope::normalise {
 
-/// The input: where every vertex of the working mesh lies. Points are followed from face to face, so that a vertex never
-/// leaps to the other side of a thin wall.
+/// The input: where every vertex of the working mesh lies. Points are followed from face to face, so that a vertex
+/// never leaps to the other side of a thin wall.
 class InputSurface {
  public:
   /// \param crease_angle  radians; edges whose faces turn by more are creases
@@ -45,9 +45,9 @@ class InputSurface {
 
   MeshView mesh_;
   std::vector<Index> opposite_;
-  std::vector<char> curve_;                         ///< of half-edges: on a crease or the boundary
-  std::vector<Kind> kind_;                          ///< of vertices
-  std::vector<std::array<Index, 2>> curves_at_;     ///< of vertices with two of them
+  std::vector<char> curve_;                      ///< of half-edges: on a crease or the boundary
+  std::vector<Kind> kind_;                       ///< of vertices
+  std::vector<std::array<Index, 2>> curves_at_;  ///< of vertices with two of them
 };
 
 }  // namespace toposcope::normalise

@@ -15,6 +15,12 @@ namespace {
 using namespace toposcope;
 using namespace toposcope::normalise;
 
+constexpr Index most_faces = 100000000;
+// Rounds that may be added while there are too many faces.
+constexpr int more_rounds = 20;
+// Changes are measured at samples; between them the shape may have changed somewhat more.
+constexpr double at_samples = 0.7;
+
 class Normalise final : public MeshFilter {
  public:
   explicit Normalise(const Options& options)
@@ -31,32 +37,55 @@ class Normalise final : public MeshFilter {
   void apply(const MeshView& mesh, Context& context, MeshSink& sink) const override {
     Goal goal = make_goal(mesh);
     const InputSurface surface(mesh, crease_angle_, goal.edge);
-    Resampler work(surface, goal);
-    work.split_long(4.0 / 3 * goal.edge, 100000000);
+    // The shape changes by no more than the number of faces demands: at first collapses by a tenth of an edge, flips
+    // and moves by half of that.
+    Limits limits{1.5 * goal.edge, std::min(goal.max_change, 0.1 * goal.edge), 0.2};
+    Resampler work(surface, goal, limits.change / 2);
+    work.split_long(4.0 / 3 * goal.edge, most_faces);
     work.carry_samples();
-    work.collapse(goal.faces, 1.5 * goal.edge, context);
-    work.split_long(0, goal.faces - 1);
-    for (int round = 0; round < rounds_ && !context.cancelled(); ++round) {
+    int left = rounds_;
+    for (int round = 0; left > 0 && round < rounds_ + more_rounds && !context.cancelled(); ++round) {
+      context.progress(static_cast<double>(round) / (rounds_ + 1));
+      work.collapse(goal.faces, limits, context);
+      work.split_long(0, goal.faces - 1);
       work.flip();
       work.relax(context);
-      if (round + 3 > rounds_) continue;
-      work.split_long(1.4 * goal.edge, 2 * goal.faces);
-      work.collapse(goal.faces, 1.5 * goal.edge, context);
-      work.split_long(0, goal.faces - 1);
+      if (work.mesh().faces() > goal.faces && round > 0) {
+        limits = {std::min(1.1 * limits.longest, 2 * goal.edge), std::min(1.25 * limits.change, goal.max_change),
+                  std::max(0.8 * limits.roundness, 0.05)};
+        work.set_free_change(limits.change / 2);
+        left = std::max(left, 3);
+      } else {
+        --left;
+      }
+      if (left == rounds_ / 2 && faces_ == 0) {
+        // Edges that vary are longer in the mean than equal ones on the same area.
+        const double ratio = work.mean_edge() / wanted_edge(mesh);
+        goal.faces = static_cast<Index>(std::round(goal.faces * ratio * ratio));
+      }
+      if (left > 2) work.split_long(1.4 * goal.edge, 2 * goal.faces);
     }
+    if (work.mesh().faces() > 1.03 * goal.faces)
+      context.log(
+          LogLevel::warning,
+          "normalise: stopped at " + std::to_string(work.mesh().faces()) + " faces, not " + std::to_string(goal.faces) +
+              "; fewer would change the shape by more than max_change or change the topology; raise max_change");
     hand_over(work.mesh(), mesh, context, sink);
   }
 
  private:
+  double wanted_edge(const MeshView& mesh) const { return edge_ > 0 ? edge_ * mesh.box.diagonal() : mesh.mean_edge; }
+
   Goal make_goal(const MeshView& mesh) const {
     double area = 0;
     for (const Triangle& t : mesh.triangles) {
       const Vec3& a = mesh.positions[t[0]];
       area += (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).norm() / 2;
     }
-    Goal goal{faces_, 0, max_change_ * mesh.box.diagonal(), shape_weight_};
-    const double edge = edge_ > 0 ? edge_ * mesh.box.diagonal() : mesh.mean_edge;
-    if (faces_ == 0) goal.faces = static_cast<Index>(std::max(4.0, std::round(4 / std::sqrt(3.0) * area / (edge * edge))));
+    Goal goal{faces_, 0, at_samples * max_change_ * mesh.box.diagonal(), shape_weight_};
+    const double edge = wanted_edge(mesh);
+    if (faces_ == 0)
+      goal.faces = static_cast<Index>(std::max(4.0, std::round(4 / std::sqrt(3.0) * area / (edge * edge))));
     goal.edge = std::sqrt(4 / std::sqrt(3.0) * area / goal.faces);
     return goal;
   }
@@ -73,15 +102,7 @@ class Normalise final : public MeshFilter {
     for (Index f = 0; f < mesh.face_slots(); ++f)
       if (mesh.is_face(f))
         triangles.push_back({number[mesh.start[3 * f]], number[mesh.start[3 * f + 1]], number[mesh.start[3 * f + 2]]});
-    std::vector<Index> origin(triangles.size());
-    const ClosestFace closest(input.positions, input.triangles);
-    context.parallel_for(triangles.size(), 512, [&](std::size_t first, std::size_t last) {
-      for (std::size_t f = first; f < last; ++f) {
-        const Triangle& t = triangles[f];
-        origin[f] = closest((positions[t[0]] + positions[t[1]] + positions[t[2]]) / 3).face;
-      }
-    });
-    sink.set(positions, triangles, origin);
+    sink.set(positions, triangles, nearest_faces(input, positions, triangles, context));
   }
 
   double edge_;  // of the box diagonal; 0: not set
@@ -99,7 +120,7 @@ constexpr OptionSpec options[] = {
      "no part of the input comes farther from the result than this"},
     {"shape_weight", OptionType::real, "", "10", "0", "1000",
      "how much a change of the shape counts against an edge's length in the order of collapses"},
-    {"crease_angle", OptionType::real, "deg", "45", "1", "180", "edges whose faces turn by more are kept as creases"},
+    {"crease_angle", OptionType::real, "deg", "60", "1", "180", "edges whose faces turn by more are kept as creases"},
     {"rounds", OptionType::integer, "", "10", "0", "100", "rounds of flips and relaxation"},
 };
 

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 namespace toposcope::normalise {
@@ -13,9 +14,9 @@ namespace {
 constexpr double sample_spacing = 0.5;
 // A face may turn by at most 72 degrees at a time.
 constexpr double least_turn_cosine = 0.3;
-// Improvements of the edges may change the shape by this many edges of the wanted length.
-constexpr double free_change = 0.05;
 constexpr double least_roundness = 0.2;
+// Edges that cost less to collapse, in edges of the wanted length, are collapsed in any case.
+constexpr double too_short = 0.5;
 
 Vec3 normal_of(const std::array<Vec3, 3>& p) {
   return (p[1] - p[0]).cross(p[2] - p[0]);
@@ -43,7 +44,8 @@ double roundness(const std::array<Vec3, 3>& p) {
   return squares > 0 ? 2 * std::sqrt(3.0) * normal_of(p).norm() / squares : 0;
 }
 
-Resampler::Resampler(const InputSurface& surface, const Goal& goal) : surface_(surface), goal_(goal) {
+Resampler::Resampler(const InputSurface& surface, const Goal& goal, double free_change)
+    : surface_(surface), goal_(goal), free_change_(free_change) {
   mesh_.assign(surface.mesh(), surface.opposite());
   for (Index h = 0; h < mesh_.start.size(); ++h)
     if (surface.is_curve(h)) mesh_.curve[h] = std::min(h, mesh_.opposite[h]);
@@ -61,9 +63,10 @@ double Resampler::mean_edge() const {
 }
 
 Facet Resampler::facet(Index f) const {
-  Facet t{{}, {}, f};
+  Facet t{{}, {}, {}, f};
   for (Index k = 0; k < 3; ++k) {
-    t.corner[k] = mesh_.position[mesh_.start[3 * f + k]];
+    t.vertex[k] = mesh_.start[3 * f + k];
+    t.corner[k] = mesh_.position[t.vertex[k]];
     t.curve[k] = mesh_.curve[3 * f + k] != no_index;
   }
   return t;
@@ -93,7 +96,10 @@ void Resampler::split_long(double longest, Index most_faces) {
     old_faces_ = {h / 3};
     if (mesh_.opposite[h] != no_index) old_faces_.push_back(mesh_.opposite[h] / 3);
     const Vec3 middle = (mesh_.position[mesh_.start[h]] + mesh_.position[mesh_.end(h)]) / 2;
+    const InputSurface::Place from = nearest(mesh_.start[h], middle), beside = nearest(mesh_.end(h), middle);
+    const bool nearer = (from.point - middle).squaredNorm() <= (beside.point - middle).squaredNorm();
     const Index v = mesh_.split(h);
+    mesh_.anchor[v] = nearer ? from.at : beside.at;
     const Move to = placed(v, middle);
     mesh_.anchor[v] = to.anchor;
     if (carrying_) {
@@ -127,13 +133,23 @@ void Resampler::carry_samples() {
       });
     change_.add(mesh_.position[v], on_curve, at);
   }
-  for (Index h = 0; h < mesh_.start.size(); ++h)
-    if (mesh_.stands_for_edge(h) && mesh_.length(h) > sample_spacing * goal_.edge)
-      change_.add((mesh_.position[mesh_.start[h]] + mesh_.position[mesh_.end(h)]) / 2, mesh_.curve[h] != no_index, h / 3);
+  // The middles of edges that are long, or that the surface bends about so much that a mesh near their ends could miss
+  // them.
+  const double deep = free_change_ / 4;
+  for (Index h = 0; h < mesh_.start.size(); ++h) {
+    if (!mesh_.stands_for_edge(h)) continue;
+    const double length = mesh_.length(h);
+    double sine = 0;
+    if (const Index g = mesh_.opposite[h]; g != no_index)
+      sine = mesh_.area_normal(h / 3).stableNormalized().cross(mesh_.area_normal(g / 3).stableNormalized()).norm();
+    if (length > sample_spacing * goal_.edge || length / 4 * sine > deep)
+      change_.add((mesh_.position[mesh_.start[h]] + mesh_.position[mesh_.end(h)]) / 2, mesh_.curve[h] != no_index,
+                  h / 3);
+  }
 }
 
 // Puts the faces around the start of h into hand as they would be, if they may be so.
-bool Resampler::prepare_collapse(Index h, double longest) {
+bool Resampler::prepare_collapse(Index h, const Limits& limits) {
   const Index v = mesh_.start[h], w = mesh_.end(h), g = mesh_.opposite[h];
   if (mesh_.kind[v] == Kind::corner || (mesh_.kind[v] == Kind::crease && mesh_.curve[h] == no_index)) return false;
   if (!mesh_.can_collapse(h)) return false;
@@ -154,23 +170,75 @@ bool Resampler::prepare_collapse(Index h, double longest) {
     const double round = roundness(before);
     worst_before = std::min(worst_before, round);
     worst_after = std::min(worst_after, roundness(after));
-    sound = sound && (after[1] - after[0]).squaredNorm() <= longest * longest &&
-            (after[2] - after[0]).squaredNorm() <= longest * longest &&
+    sound = sound && (after[1] - after[0]).squaredNorm() <= limits.longest * limits.longest &&
+            (after[2] - after[0]).squaredNorm() <= limits.longest * limits.longest &&
             (round < 1e-3 || turns_little(normal_of(before), normal_of(after)));
-    facets_.push_back({after, {first, mesh_.curve[next_half_edge(x)] != no_index, last}, x / 3});
+    facets_.push_back({after, {w, p, q}, {first, mesh_.curve[next_half_edge(x)] != no_index, last}, x / 3});
   });
-  return sound && worst_after >= std::min(least_roundness, worst_before);
+  return sound && worst_after >= std::min(limits.roundness, worst_before);
 }
 
-std::optional<double> Resampler::collapse_cost(Index h, double longest) {
-  if (!prepare_collapse(h, longest)) return {};
+// The surface near a vertex has two sides at a crease and more at a corner: a descent from one need not find the
+// others.
+InputSurface::Place Resampler::nearest(Index v, const Vec3& x) const {
+  if (mesh_.kind[v] == Kind::smooth) return surface_.on_surface(mesh_.anchor[v], x);
+  InputSurface::Place best{no_index, x};
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](Index face) {
+    const InputSurface::Place place = surface_.on_surface(face, x);
+    const double d = (place.point - x).squaredNorm();
+    if (d >= least) return;
+    least = d;
+    best = place;
+  };
+  if (mesh_.kind[v] == Kind::corner) {
+    // Corners are vertices of the input and keep their numbers.
+    for (Index face : surface_.mesh().faces_of(v)) look(face);
+    return best;
+  }
+  const Index curve = curve_at(v), other = surface_.opposite()[curve];
+  look(curve / 3);
+  if (other != no_index) look(other / 3);
+  return best;
+}
+
+// The input's half-edge under one of the crease edges of v.
+Index Resampler::curve_at(Index v) const {
+  Index curve = no_index;
+  mesh_.around(v, [&](Index h) {
+    for (Index x : {h, previous_half_edge(h)})
+      if (curve == no_index) curve = mesh_.curve[x];
+  });
+  return curve;
+}
+
+// The samples tell how far the input is from the mesh. The other way the vertices lie on it, the faces may not: the
+// greatest squared distance of the middles of the faces in hand, and of an edge of each.
+double Resampler::off_surface() const {
+  const double negligible = std::pow(0.01 * goal_.edge, 2);
+  double greatest = 0;
+  for (const Facet& t : facets_)
+    for (const Vec3& x : {Vec3((t.corner[0] + t.corner[1] + t.corner[2]) / 3), Vec3((t.corner[0] + t.corner[1]) / 2)}) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < 3 && least > std::max(greatest, negligible); ++k)
+        least = std::min(least, (nearest(t.vertex[k], x).point - x).squaredNorm());
+      greatest = std::max(greatest, least);
+    }
+  return greatest;
+}
+
+std::optional<double> Resampler::collapse_cost(Index h, const Limits& limits) {
+  if (!prepare_collapse(h, limits)) return {};
   change_.lift(old_faces_);
-  const double squared = change_.measure(facets_, goal_.max_change * goal_.max_change);
+  const double limit = limits.change * limits.change;
+  double squared = change_.measure(facets_, limit);
   if (!std::isfinite(squared)) return {};
+  squared = std::max(squared, off_surface());
+  if (squared > limit) return {};
   return (mesh_.length(h) + goal_.shape_weight * std::sqrt(squared)) / goal_.edge;
 }
 
-void Resampler::collapse(Index least_faces, double longest, Context& context) {
+void Resampler::collapse(Index least_faces, const Limits& limits, Context& context) {
   std::vector<Index> stamp(mesh_.start.size(), 0);
   Cheapest queue;
   const auto push = [&](Index h) {
@@ -178,13 +246,14 @@ void Resampler::collapse(Index least_faces, double longest, Context& context) {
   };
   for (Index h = 0; h < mesh_.start.size(); ++h)
     if (mesh_.is_half_edge(h)) push(h);
-  for (std::size_t step = 0; !queue.empty() && mesh_.faces() > least_faces; ++step) {
+  for (std::size_t step = 0; !queue.empty(); ++step) {
+    if (mesh_.faces() <= least_faces && (queue.top().cost > too_short || mesh_.faces() <= least_faces / 2)) return;
     if (step % 1024 == 0 && context.cancelled()) return;
     const Candidate candidate = queue.top();
     queue.pop();
     const Index h = candidate.half_edge;
     if (!mesh_.is_half_edge(h) || candidate.stamp != stamp[h]) continue;
-    const std::optional<double> cost = collapse_cost(h, longest);
+    const std::optional<double> cost = collapse_cost(h, limits);
     if (!cost) continue;
     // The cost in the queue is a lower bound: the length alone, or what it was before a neighbour changed.
     if (!queue.empty() && *cost > queue.top().cost) {
@@ -210,7 +279,7 @@ void Resampler::flip_edge(Index h) {
   };
   const double delaunay = cotangent(a) + cotangent(b);
   const double change = std::max(change_.squared(h / 3), change_.squared(g / 3));
-  const double free = free_change * goal_.edge * free_change * goal_.edge;
+  const double free = free_change_ * free_change_;
   if (delaunay > -1e-6 && change <= free) return;
   if (!mesh_.can_flip(h)) return;
   const std::array<Vec3, 3> abw = {a, b, w}, bav = {b, a, v};
@@ -222,13 +291,20 @@ void Resampler::flip_edge(Index h) {
   old_faces_ = {h / 3, g / 3};
   const auto curve = [&](Index x) { return mesh_.curve[x] != no_index; };
   facets_.clear();
-  facets_.push_back({abw, {false, curve(previous_half_edge(g)), curve(next_half_edge(h))}, h / 3});
-  facets_.push_back({bav, {false, curve(previous_half_edge(h)), curve(next_half_edge(g))}, g / 3});
+  facets_.push_back({abw,
+                     {mesh_.apex(h), mesh_.apex(g), mesh_.end(h)},
+                     {false, curve(previous_half_edge(g)), curve(next_half_edge(h))},
+                     h / 3});
+  facets_.push_back({bav,
+                     {mesh_.apex(g), mesh_.apex(h), mesh_.start[h]},
+                     {false, curve(previous_half_edge(h)), curve(next_half_edge(g))},
+                     g / 3});
   change_.lift(old_faces_);
   const double after = change_.measure(facets_, std::max(change, free));
   const bool rounder = delaunay < -1e-6 && after <= std::max(change, free);
   const bool closer = change > free && after < 0.5 * change;
   if (!rounder && !closer) return;
+  if (off_surface() > goal_.max_change * goal_.max_change) return;
   change_.settle(old_faces_, facets_);
   mesh_.flip(h);
 }
@@ -240,12 +316,7 @@ void Resampler::flip() {
 
 Resampler::Move Resampler::placed(Index v, const Vec3& target) const {
   if (mesh_.kind[v] == Kind::crease) {
-    Index curve = no_index;
-    mesh_.around(v, [&](Index h) {
-      for (Index x : {h, previous_half_edge(h)})
-        if (curve == no_index && mesh_.curve[x] != no_index) curve = mesh_.curve[x];
-    });
-    const InputSurface::Place place = surface_.on_curve(curve, target);
+    const InputSurface::Place place = surface_.on_curve(curve_at(v), target);
     return {place.point, place.at / 3, place.at};
   }
   const InputSurface::Place place = surface_.on_surface(mesh_.anchor[v], target);
@@ -276,7 +347,7 @@ Resampler::Move Resampler::wanted(Index v) const {
 
 bool Resampler::move(Index v, const Move& to) {
   take_faces_around(v);
-  double change = free_change * goal_.edge * free_change * goal_.edge;
+  double change = free_change_ * free_change_;
   for (Facet& t : facets_) {
     const Vec3 before = normal_of(t.corner);
     const double round = roundness(t.corner);
@@ -288,6 +359,7 @@ bool Resampler::move(Index v, const Move& to) {
   }
   change_.lift(old_faces_);
   if (!std::isfinite(change_.measure(facets_, change))) return false;
+  if (off_surface() > goal_.max_change * goal_.max_change) return false;
   change_.settle(old_faces_, facets_);
   mesh_.position[v] = to.point;
   mesh_.anchor[v] = to.anchor;

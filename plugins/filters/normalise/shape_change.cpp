@@ -17,8 +17,8 @@ double to_curves(const Facet& facet, const Vec3& x) {
   double least = infinite;
   for (std::size_t k = 0; k < 3; ++k)
     if (facet.curve[k])
-      least = std::min(least,
-                       (closest_on_segment(facet.corner[k], facet.corner[(k + 1) % 3], x).point - x).squaredNorm());
+      least =
+          std::min(least, (closest_on_segment(facet.corner[k], facet.corner[(k + 1) % 3], x).point - x).squaredNorm());
   return least;
 }
 

@@ -12,6 +12,7 @@ namespace toposcope::normalise {
 /// A triangle as it is or as an operation would make it.
 struct Facet {
   std::array<Vec3, 3> corner;
+  std::array<Index, 3> vertex;
   std::array<bool, 3> curve;  ///< whether the side from this corner lies on a crease or the boundary
   Index face;                 ///< its place in the mesh
 };

@@ -63,7 +63,8 @@ class SurfaceMesh {
   bool can_collapse(Index h);
   /// Draws the start of h into its end, which keeps its position. \pre can_collapse(h)
   void collapse(Index h);
-  /// Whether the edge may be replaced by the one between its faces' far corners: inner, not on a crease, the other absent.
+  /// Whether the edge may be replaced by the one between its faces' far corners: inner, not on a crease, the other
+  /// absent.
   bool can_flip(Index h) const;
   void flip(Index h);
   /// Cuts the edge and its faces at its midpoint; returns the new vertex.
