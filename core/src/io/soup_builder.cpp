@@ -18,6 +18,7 @@ constexpr std::int64_t largest_index = std::numeric_limits<Index>::max() - 1;
 void fail_at(const std::string& file, MeshFilePlace place, const std::string& message) {
   if (place.unit == MeshFilePlace::Unit::line)
     throw MeshError(file + ":" + std::to_string(place.number) + ": " + message);
+  if (place.unit == MeshFilePlace::Unit::none) throw MeshError(file + ": " + message);
   throw MeshError(file + ": byte " + std::to_string(place.number) + ": " + message);
 }
 

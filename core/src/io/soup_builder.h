@@ -12,14 +12,15 @@
 
 namespace toposcope {
 
-/// A place in a mesh file, for messages: a line (from 1) of text, a byte (from 0) of binary data.
+/// A place in a mesh file, for messages: a line (from 1) of text, a byte (from 0) of binary data; none where the
+/// message names it.
 struct MeshFilePlace {
-  enum class Unit { line, byte };
+  enum class Unit { line, byte, none };
   std::size_t number = 0;
-  Unit unit = Unit::line;
+  Unit unit = Unit::none;
 };
 
-/// \throw MeshError  "file:line: message" or "file: byte n: message"
+/// \throw MeshError  "file:line: message", "file: byte n: message" or "file: message"
 [[noreturn]] void fail_at(const std::string& file, MeshFilePlace place, const std::string& message);
 
 /// A piece of a file in quotes, shortened and with unprintable bytes as '?', for messages.
