@@ -5,16 +5,20 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 #include "mesh/mesh.h"
 
 namespace toposcope {
 
 /// Reads PLY (ASCII, binary of both byte orders), OBJ, STL (ASCII, binary; corners at equal positions are welded),
-/// OFF. The format is told by the content, then by the extension. Polygons are cut into triangles.
-/// Sizes in headers are never trusted before the bytes are there; the locale plays no role.
-/// \throw MeshError  "file:line: what is wrong, and the remedy" (binary: byte offset)
+/// OFF (ASCII, binary), glTF 2.0 (.glb, .gltf). The format is told by the content, then by the extension. Polygons are
+/// cut into triangles. Sizes in headers are never trusted before the bytes are there; the locale plays no role. \throw
+/// MeshError  "file:line: what is wrong, and the remedy" (binary: byte offset)
 TriangleSoup read_soup(const std::filesystem::path& path);
+
+/// The same from memory. \param path  for messages, for its extension, and for the folder of a glTF's buffers
+TriangleSoup read_soup(std::string_view bytes, const std::filesystem::path& path);
 
 /// Reads and checks.
 Mesh read_mesh(const std::filesystem::path& path, Context* context = nullptr);

@@ -28,14 +28,13 @@ constexpr std::array<std::pair<std::string_view, PlyScalar>, 16> scalar_names = 
     {"float64", PlyScalar::float64},
 }};
 
-/// Lines of the header. The first one tells how they end: with binary data behind it, a guess would be fatal.
+/// Lines of the header. The first one tells whether they end with a lone CR: with binary data behind them, a guess
+/// would be fatal. LF and CR LF may be mixed.
 class HeaderLines {
  public:
   explicit HeaderLines(const FileText& file) : file_(file) {
     const std::size_t end = file.bytes.find_first_of("\r\n");
-    ending_ = end == file.bytes.npos || file.bytes[end] == '\n' ? "\n"
-              : file.bytes.substr(end, 2) == "\r\n"             ? "\r\n"
-                                                                : "\r";
+    if (end != file.bytes.npos && file.bytes[end] == '\r' && file.bytes.substr(end, 2) != "\r\n") ending_ = '\r';
   }
 
   /// The words of the next line.
@@ -43,11 +42,12 @@ class HeaderLines {
     ++line_;
     std::size_t end = file_.bytes.find(ending_, at_);
     if (end == file_.bytes.npos) {
-      if (file_.bytes.substr(at_) != "end_header") fail("the header has no end_header; the file is cut short");
+      if (!file_.bytes.substr(at_).starts_with("end_header"))
+        fail("the header has no end_header; the file is cut short");
       end = file_.bytes.size();
     }
     std::string_view rest = file_.bytes.substr(at_, end - at_);
-    at_ = std::min(end + ending_.size(), file_.bytes.size());
+    at_ = std::min(end + 1, file_.bytes.size());
     words_.clear();
     while (true) {
       const std::size_t begin = rest.find_first_not_of(" \t\r");
@@ -66,7 +66,7 @@ class HeaderLines {
 
  private:
   const FileText& file_;
-  std::string_view ending_;
+  char ending_ = '\n';
   std::vector<std::string_view> words_;
   std::size_t at_ = 0, line_ = 0;
 };
@@ -105,8 +105,8 @@ PlyProperty property(const HeaderLines& lines, const std::vector<std::string_vie
   if (result.is_list) result.count_type = scalar(lines, words[2]);
   if (owner.name == "vertex" && !result.is_list && result.name.size() == 1 && result.name >= "x" && result.name <= "z")
     result.axis = result.name[0] - 'x';
-  result.is_corners =
-      owner.name == "face" && result.is_list && (result.name == "vertex_indices" || result.name == "vertex_index");
+  result.is_corners = (owner.name == "face" || owner.name == "tristrips") && result.is_list &&
+                      (result.name == "vertex_indices" || result.name == "vertex_index");
   return result;
 }
 
@@ -123,9 +123,9 @@ void check(const FileText& file, const PlyHeader& header) {
       if (e.name == "vertex" &&
           std::count_if(p.begin(), p.end(), [&](const PlyProperty& q) { return q.axis == axis; }) != 1)
         fail(e, std::string("element 'vertex' must have one property '") + "xyz"[axis] + "'");
-    if (e.name == "face" && e.count > 0 &&
+    if ((e.name == "face" || e.name == "tristrips") && e.count > 0 &&
         std::count_if(p.begin(), p.end(), [](const PlyProperty& q) { return q.is_corners; }) != 1)
-      fail(e, "element 'face' must have one list 'vertex_indices' (or 'vertex_index')");
+      fail(e, "element " + quoted(e.name) + " must have one list 'vertex_indices' (or 'vertex_index')");
   }
 }
 

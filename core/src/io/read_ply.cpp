@@ -1,93 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
+#include <array>
 #include <bit>
-#include <cmath>
+#include <optional>
 
 #include "io/ply_header.h"
+#include "io/ply_source.h"
 #include "io/readers.h"
-#include "io/text_cursor.h"
 
 namespace toposcope {
 namespace {
-
-class AsciiSource {
- public:
-  AsciiSource(const std::string& file, std::string_view body, std::size_t line) : text_(file, body, {}, line) {}
-  /// Of what comes next, which may be on a later line.
-  MeshFilePlace place() {
-    text_.find_word();
-    return text_.place();
-  }
-  double real(PlyScalar) { return text_.need_number("a number"); }
-  std::int64_t integer(PlyScalar, std::string_view what) { return text_.need_integer(what); }
-  void skip(PlyScalar, std::size_t count) {
-    while (count-- > 0) text_.need_word("a number");
-  }
-  /// Room is counted in numbers: a digit and a space each, the last one without.
-  static std::size_t size(PlyScalar) { return 1; }
-  std::size_t room() const { return text_.bytes_left() / 2 + 1; }
-
- private:
-  TextCursor text_;
-};
-
-template <bool swapped>
-class BinarySource {
- public:
-  BinarySource(const std::string& file, std::string_view bytes, std::size_t begin)
-      : file_(file), bytes_(bytes), at_(begin) {}
-  MeshFilePlace place() const { return {at_, MeshFilePlace::Unit::byte}; }
-  static std::size_t size(PlyScalar type) { return ply_scalar_size(type); }
-  std::size_t room() const { return bytes_.size() - at_; }
-
-  double real(PlyScalar type) {
-    switch (type) {
-      case PlyScalar::int8:
-        return load<std::int8_t>();
-      case PlyScalar::uint8:
-        return load<std::uint8_t>();
-      case PlyScalar::int16:
-        return load<std::int16_t>();
-      case PlyScalar::uint16:
-        return load<std::uint16_t>();
-      case PlyScalar::int32:
-        return load<std::int32_t>();
-      case PlyScalar::uint32:
-        return load<std::uint32_t>();
-      case PlyScalar::float32:
-        return load<float>();
-      case PlyScalar::float64:
-        break;
-    }
-    return load<double>();
-  }
-  std::int64_t integer(PlyScalar type, std::string_view what) {
-    const double value = real(type);
-    if (!(std::abs(value) < 9e15) || value != std::floor(value))
-      fail_at(file_, place(), "expected " + std::string(what) + ", a whole number, but found " + std::to_string(value));
-    return static_cast<std::int64_t>(value);
-  }
-  void skip(PlyScalar type, std::size_t count) {
-    if (count > room() / size(type)) cut_short();
-    at_ += count * size(type);
-  }
-
- private:
-  template <class T>
-  T load() {
-    if (room() < sizeof(T)) cut_short();
-    std::array<char, sizeof(T)> copy;
-    std::copy_n(bytes_.data() + at_, sizeof(T), copy.begin());
-    if constexpr (swapped) std::reverse(copy.begin(), copy.end());
-    at_ += sizeof(T);
-    return std::bit_cast<T>(copy);
-  }
-  [[noreturn]] void cut_short() const { fail_at(file_, place(), "the file ends within its data; it is cut short"); }
-
-  const std::string& file_;
-  std::string_view bytes_;
-  std::size_t at_;
-};
 
 /// The number of entries of a list, at most as many as the rest of the file could hold.
 template <class Source>
@@ -106,8 +27,55 @@ void skip_property(const FileText& file, Source& source, const PlyProperty& prop
   source.skip(property.type, property.is_list ? list_size(file, source, property) : 1);
 }
 
+/// Takes all vertices at once where their rows have a fixed size and the coordinates one floating type, as nearly all
+/// programs write them.
+template <class Source>
+bool take_vertices(Source& source, const PlyElement& element, SoupBuilder& builder) {
+  if constexpr (!Source::is_binary) {
+    return false;
+  } else {
+    std::size_t stride = 0;
+    std::array<std::size_t, 3> offsets{};
+    std::optional<PlyScalar> type;
+    for (const PlyProperty& property : element.properties) {
+      if (property.is_list) return false;
+      if (property.axis >= 0) {
+        if (type.value_or(property.type) != property.type) return false;
+        type = property.type;
+        offsets[static_cast<std::size_t>(property.axis)] = stride;
+      }
+      stride += Source::size(property.type);
+    }
+    const char* rows = source.rest().data();
+    const std::size_t first_byte = source.place().number;
+    const auto take = [&]<class T>(T) {
+      const auto coordinate = [&](const char* row, std::size_t axis) -> double {
+        return ply_load<T, Source::is_swapped>(row + offsets[axis]);
+      };
+      builder.add_positions(
+          element.count,
+          [&](std::size_t i) {
+            const char* row = rows + i * stride;
+            return Vec3(coordinate(row, 0), coordinate(row, 1), coordinate(row, 2));
+          },
+          [&](std::size_t i) {
+            return MeshFilePlace{first_byte + i * stride, MeshFilePlace::Unit::byte};
+          });
+    };
+    if (type == PlyScalar::float32)
+      take(float{});
+    else if (type == PlyScalar::float64)
+      take(double{});
+    else
+      return false;
+    source.advance(element.count * stride);
+    return true;
+  }
+}
+
 template <class Source>
 void read_vertices(const FileText& file, Source& source, const PlyElement& element, SoupBuilder& builder) {
+  if (take_vertices(source, element, builder)) return;
   for (std::size_t i = 0; i < element.count; ++i) {
     const MeshFilePlace place = source.place();
     Vec3 position = Vec3::Zero();
@@ -121,10 +89,48 @@ void read_vertices(const FileText& file, Source& source, const PlyElement& eleme
   }
 }
 
+/// Takes as many of the next faces as are triangles of a byte and three 32-bit indices, with a fixed size behind.
+template <class Source>
+std::size_t take_triangles(Source& source, const PlyElement& element, std::size_t count, SoupBuilder& builder) {
+  if constexpr (!Source::is_binary) {
+    return 0;
+  } else {
+    const PlyProperty& list = element.properties.front();
+    if (Source::is_swapped || !list.is_corners || Source::size(list.count_type) != 1 ||
+        (list.type != PlyScalar::int32 && list.type != PlyScalar::uint32))
+      return 0;
+    std::size_t stride = 1 + sizeof(Triangle);
+    for (const PlyProperty& property : std::span(element.properties).subspan(1)) {
+      if (property.is_list) return 0;
+      stride += Source::size(property.type);
+    }
+    if (count > source.room() / stride) return 0;  // the file is cut short: row by row, to the place where it ends
+    const std::size_t taken = builder.add_triangle_rows(source.rest(), stride, count, source.place().number);
+    source.advance(taken * stride);
+    return taken;
+  }
+}
+
+/// The triangles of strips, of alternating sense; a negative corner begins a new strip. Those that repeat a corner only
+/// join strips.
+void add_strips(std::span<const std::int64_t> corners, MeshFilePlace place, SoupBuilder& builder) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (corners[i] < 0) begin = i + 1;
+    if (i < begin + 2) continue;
+    std::array<std::int64_t, 3> t = {corners[i - 2], corners[i - 1], corners[i]};
+    if ((i - begin) % 2 == 1) std::swap(t[0], t[1]);
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) builder.add_face(t, place);
+  }
+}
+
 template <class Source>
 void read_faces(const FileText& file, Source& source, const PlyElement& element, SoupBuilder& builder) {
   std::vector<std::int64_t> corners;
+  const bool strips = element.name == "tristrips";
   for (std::size_t i = 0; i < element.count; ++i) {
+    if (!strips) i += take_triangles(source, element, element.count - i, builder);
+    if (i == element.count) break;
     MeshFilePlace place = source.place();
     for (const PlyProperty& property : element.properties) {
       if (!property.is_corners) {
@@ -135,7 +141,10 @@ void read_faces(const FileText& file, Source& source, const PlyElement& element,
       place = source.place();
       for (std::int64_t& corner : corners) corner = source.integer(property.type, "a vertex index");
     }
-    builder.add_face(corners, place);
+    if (strips)
+      add_strips(corners, place, builder);
+    else
+      builder.add_face(corners, place);
   }
 }
 
@@ -153,7 +162,7 @@ TriangleSoup read_body(const FileText& file, const PlyHeader& header, Source sou
     if (element.name == "vertex") {
       builder.reserve(element.count, 0);
       read_vertices(file, source, element, builder);
-    } else if (element.name == "face") {
+    } else if (element.name == "face" || element.name == "tristrips") {
       builder.reserve(0, element.count);
       read_faces(file, source, element, builder);
     } else {
@@ -169,10 +178,10 @@ TriangleSoup read_body(const FileText& file, const PlyHeader& header, Source sou
 TriangleSoup read_ply(const FileText& file) {
   const PlyHeader header = read_ply_header(file);
   if (header.format == PlyFormat::ascii)
-    return read_body(file, header, AsciiSource(file.name, file.bytes.substr(header.size), header.lines + 1));
+    return read_body(file, header, PlyAsciiSource(file.name, file.bytes.substr(header.size), header.lines + 1));
   if ((header.format == PlyFormat::binary_little) == (std::endian::native == std::endian::little))
-    return read_body(file, header, BinarySource<false>(file.name, file.bytes, header.size));
-  return read_body(file, header, BinarySource<true>(file.name, file.bytes, header.size));
+    return read_body(file, header, PlyBinarySource<false>(file.name, file.bytes, header.size));
+  return read_body(file, header, PlyBinarySource<true>(file.name, file.bytes, header.size));
 }
 
 }  // namespace toposcope

@@ -1,48 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/soup_builder.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "base/errors.h"
+#include "io/cut_polygons.h"
 
 namespace toposcope {
 namespace {
 
 constexpr std::int64_t largest_index = std::numeric_limits<Index>::max() - 1;
 
-/// How well a quad is cut into the triangles abc and acd: negative where one of them is folded over (the quad is
-/// concave at b or d), and higher for a shorter cut.
-double quality_of_cut(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 first = (b - a).cross(c - a), second = (c - a).cross(d - a);
-  const double cut = (c - a).squaredNorm();
-  return first.dot(second) < 0 ? -1 : 1 / (1 + cut / ((b - d).squaredNorm() + std::numeric_limits<double>::min()));
-}
-
-/// The fan cuts quads from their first corner, whichever that is; take the other cut where it is clearly better.
-void improve_quads(TriangleSoup& soup) {
-  constexpr double clearly = 1.001;  // a square keeps the cut of the fan, whatever its rounding
-  const auto& origin = soup.face_origin;
-  for (std::size_t f = 0; f + 1 < origin.size(); ++f) {
-    const bool quad = origin[f] == origin[f + 1] && (f == 0 || origin[f - 1] != origin[f]) &&
-                      (f + 2 == origin.size() || origin[f + 2] != origin[f]);
-    if (!quad) continue;
-    const auto [a, b, c] = soup.triangles[f];
-    const Index d = soup.triangles[f + 1][2];
-    const auto& p = soup.positions;
-    const double as_is = quality_of_cut(p[a], p[b], p[c], p[d]), other = quality_of_cut(p[b], p[c], p[d], p[a]);
-    if (other <= (as_is < 0 ? as_is : as_is * clearly)) continue;
-    soup.triangles[f] = {b, c, d};
-    soup.triangles[f + 1] = {b, d, a};
-  }
-}
-
 }  // namespace
 
 void fail_at(const std::string& file, MeshFilePlace place, const std::string& message) {
   if (place.unit == MeshFilePlace::Unit::line)
     throw MeshError(file + ":" + std::to_string(place.number) + ": " + message);
+  if (place.unit == MeshFilePlace::Unit::none) throw MeshError(file + ": " + message);
   throw MeshError(file + ": byte " + std::to_string(place.number) + ": " + message);
 }
 
@@ -62,12 +38,10 @@ void SoupBuilder::reserve(std::size_t positions, std::size_t triangles) {
   soup_.face_origin.reserve(triangles);
 }
 
-void SoupBuilder::add_position(const Vec3& position, MeshFilePlace place) {
-  if (!position.allFinite())
-    fail_at(file_, place,
-            "vertex " + std::to_string(soup_.positions.size()) +
-                " (from 0) has a coordinate that is not a finite number; remove or repair it");
-  soup_.positions.push_back(position);
+void SoupBuilder::fail_not_finite(std::size_t vertex, MeshFilePlace place) const {
+  fail_at(file_, place,
+          "vertex " + std::to_string(vertex) +
+              " (from 0) has a coordinate that is not a finite number; remove or repair it");
 }
 
 void SoupBuilder::add_face(std::span<const std::int64_t> corners, MeshFilePlace place) {
@@ -88,6 +62,29 @@ void SoupBuilder::add_face(std::span<const std::int64_t> corners, MeshFilePlace 
     soup_.face_origin.push_back(soup_.input_faces);
   }
   ++soup_.input_faces;
+  has_polygons_ = has_polygons_ || corners.size() > 3;
+}
+
+std::size_t SoupBuilder::add_triangle_rows(std::string_view rows, std::size_t stride, std::size_t count,
+                                           std::size_t first_byte) {
+  constexpr std::size_t least = 1 + sizeof(Triangle);
+  constexpr std::int64_t largest = std::numeric_limits<std::int32_t>::max();  // as a signed index may say
+  if (rows.size() < least) return 0;
+  count = std::min({count, (rows.size() - least) / stride + 1, static_cast<std::size_t>(largest - soup_.input_faces)});
+  for (std::size_t i = 0; i < count; ++i) {
+    const char* row = rows.data() + i * stride;
+    Triangle t;
+    std::memcpy(t.data(), row + 1, sizeof t);
+    const std::int64_t greatest = std::max({t[0], t[1], t[2]});
+    if (*row != 3 || greatest > largest) return i;
+    if (greatest > greatest_corner_) {
+      greatest_corner_ = greatest;
+      greatest_place_ = {first_byte + i * stride + 1, MeshFilePlace::Unit::byte};
+    }
+    soup_.triangles.push_back(t);
+    soup_.face_origin.push_back(soup_.input_faces++);
+  }
+  return count;
 }
 
 TriangleSoup SoupBuilder::finish() {
@@ -99,7 +96,7 @@ TriangleSoup SoupBuilder::finish() {
     fail_at(file_, greatest_place_,
             "a face refers to vertex " + std::to_string(greatest_corner_) + " (from 0) but the file has " +
                 std::to_string(soup_.positions.size()) + " vertices; the index is wrong or the file cut short");
-  improve_quads(soup_);
+  if (has_polygons_) cut_polygons(soup_);
   return std::move(soup_);
 }
 

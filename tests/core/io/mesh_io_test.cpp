@@ -103,7 +103,7 @@ TEST(ReadMesh, FilesThatAreNone) {
   if (std::filesystem::exists("/dev/zero")) {
     EXPECT_THROW(read_mesh("/dev/zero"), MeshError) << "has no end";
   }
-  EXPECT_TRUE(says(refusal("hello", ".step"), "use .ply, .obj, .stl or .off"));
+  EXPECT_TRUE(says(refusal("hello", ".step"), "use .ply, .obj, .stl, .off, .glb or .gltf"));
 }
 
 TEST(ReadMesh, TheLocalePlaysNoRole) {
