@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/errors.h"
+#include "toposcope/large_array.h"
 
 namespace toposcope {
 namespace {
@@ -29,6 +30,7 @@ FileBytes read_file_bytes(const std::filesystem::path& path) {
   const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(name.c_str(), "rb"));
   if (error || !file) throw MeshError(name + ": cannot be opened (" + std::strerror(errno) + ")");
   FileBytes bytes{std::make_unique_for_overwrite<char[]>(length), 0};
+  advise_huge_pages(bytes.data.get(), length);
   bytes.size = std::fread(bytes.data.get(), 1, length, file.get());
   if (std::ferror(file.get())) throw MeshError(name + ": cannot be read (" + std::strerror(errno) + ")");
   return bytes;

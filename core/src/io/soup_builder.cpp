@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/errors.h"
+#include "toposcope/large_array.h"
 #include "io/cut_polygons.h"
 
 namespace toposcope {
@@ -33,9 +34,9 @@ std::string quoted(std::string_view text) {
 }
 
 void SoupBuilder::reserve(std::size_t positions, std::size_t triangles) {
-  soup_.positions.reserve(positions);
-  soup_.triangles.reserve(triangles);
-  soup_.face_origin.reserve(triangles);
+  reserve_large(soup_.positions, positions);
+  reserve_large(soup_.triangles, triangles);
+  reserve_large(soup_.face_origin, triangles);
 }
 
 void SoupBuilder::fail_not_finite(std::size_t vertex, MeshFilePlace place) const {
