@@ -79,7 +79,4 @@ class Resampler {
   std::vector<Facet> facets_;
 };
 
-/// 1 for equilateral triangles, 0 for degenerate ones.
-double roundness(const std::array<Vec3, 3>& corner);
-
 }  // namespace toposcope::normalise
