@@ -19,107 +19,148 @@ constexpr std::size_t most_points = 48;  // where a mesh is much finer here than
 constexpr double faces_away = -0.3;      // cosine between normals
 constexpr double ridge = 1e-5;           // of the squared reach; biases by less than 0.1 %
 
-/// Least squares with six unknowns by the normal equations, unrolled: this is the inner loop of the estimate.
+/// Least squares with six unknowns by the normal equations: the inner loop of the estimate. Rows are kept in columns,
+/// so that sums run over contiguous numbers, four at a time.
 class SixUnknowns {
  public:
-  using Row = std::array<double, 6>;
-
-  void add(const Row& row, double value) {
-    for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j <= i; ++j) gram_[i][j] += row[i] * row[j];
-      right_[i] += value * row[i];
-    }
+  /// \param most  rows to come
+  void start(std::size_t most) {
+    count_ = 0;
+    const std::size_t padded = (most + 3) / 4 * 4;
+    if (padded <= stride_) return;
+    stride_ = padded;
+    columns_.resize(7 * stride_);
   }
-  void add_to_diagonal(int i, double value) { gram_[i][i] += value; }
-  /// By L D L^T; the diagonal's ridge keeps the matrix definite.
-  Row solve() {
+  void add(const std::array<double, 6>& row, double value) {
+    for (std::size_t i = 0; i < 6; ++i) column(i)[count_] = row[i];
+    column(6)[count_++] = value;
+  }
+  double count() const { return static_cast<double>(count_); }
+
+  /// By L D L^T. \param damping  added to the diagonal; keeps the matrix definite
+  std::array<double, 6> solve(const std::array<double, 6>& damping) {
+    const std::size_t padded = (count_ + 3) / 4 * 4;
+    for (std::size_t i = 0; i < 7; ++i) std::fill(column(i) + count_, column(i) + padded, 0.0);
+    double gram[6][6], right[6], inverse[6];
+    for (std::size_t i = 0; i < 6; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) gram[i][j] = product(column(i), column(j), padded);
+      gram[i][i] += damping[i];
+      right[i] = product(column(i), column(6), padded);
+    }
     for (int j = 0; j < 6; ++j) {
-      Row scaled;
-      for (int k = 0; k < j; ++k) scaled[k] = gram_[j][k] * gram_[k][k];
-      for (int k = 0; k < j; ++k) gram_[j][j] -= gram_[j][k] * scaled[k];
+      double scaled[6];
+      for (int k = 0; k < j; ++k) scaled[k] = gram[j][k] * gram[k][k];
+      for (int k = 0; k < j; ++k) gram[j][j] -= gram[j][k] * scaled[k];
+      inverse[j] = 1 / gram[j][j];
       for (int i = j + 1; i < 6; ++i) {
-        for (int k = 0; k < j; ++k) gram_[i][j] -= gram_[i][k] * scaled[k];
-        gram_[i][j] /= gram_[j][j];
+        for (int k = 0; k < j; ++k) gram[i][j] -= gram[i][k] * scaled[k];
+        gram[i][j] *= inverse[j];
       }
     }
-    Row c = right_;
-    for (int i = 0; i < 6; ++i)
-      for (int k = 0; k < i; ++k) c[i] -= gram_[i][k] * c[k];
-    for (int i = 0; i < 6; ++i) c[i] /= gram_[i][i];
+    std::array<double, 6> c;
+    for (int i = 0; i < 6; ++i) {
+      c[i] = right[i];
+      for (int k = 0; k < i; ++k) c[i] -= gram[i][k] * c[k];
+    }
+    for (int i = 0; i < 6; ++i) c[i] *= inverse[i];
     for (int i = 5; i >= 0; --i)
-      for (int k = i + 1; k < 6; ++k) c[i] -= gram_[k][i] * c[k];
+      for (int k = i + 1; k < 6; ++k) c[i] -= gram[k][i] * c[k];
     return c;
   }
 
  private:
-  double gram_[6][6] = {};
-  Row right_ = {};
+  double* column(std::size_t i) { return columns_.data() + i * stride_; }
+  static double product(const double* a, const double* b, std::size_t count) {
+    std::array<double, 4> sum = {};
+    for (std::size_t i = 0; i < count; i += 4)
+      for (std::size_t lane = 0; lane < 4; ++lane) sum[lane] += a[i + lane] * b[i + lane];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  }
+
+  std::vector<double> columns_;  ///< of the six unknowns' coefficients and of the values
+  std::size_t stride_ = 0, count_ = 0;
 };
 
-/// Vertices that a walk from p reaches without leaving the ball, p first.
+struct Neighbour {
+  Vec3 offset;  ///< from p
+  Index vertex;
+};
+
+/// Vertices that a walk from p reaches without leaving the ball.
 class Neighbourhood {
  public:
   explicit Neighbourhood(const MeshView& mesh)
       : mesh_(mesh), reached_from_(large_array<Index>(mesh.vertex_count(), std::numeric_limits<Index>::max())) {}
 
-  const std::vector<Index>& around(Index p) {
-    const auto ring = mesh_.one_ring(p);
+  /// p itself not among them.
+  std::span<const Neighbour> around(Index p) {
     const Vec3 here = mesh_.positions[p];
-    points_.assign(1, p);
+    const auto ring = mesh_.one_ring(p);
     reached_from_[p] = p;
-    double edges = 0;
+    make_room(0, ring.size());
+    std::size_t count = 0;
+    double squares = 0;
     for (Index q : ring) {
-      edges += (mesh_.positions[q] - here).norm();
+      reached_[count] = {mesh_.positions[q] - here, q};
       reached_from_[q] = p;
-      points_.push_back(q);
+      squares += reached_[count++].offset.squaredNorm();
     }
-    const double radius =
-        reach * std::max(mesh_.mean_edge, edges / static_cast<double>(std::max<std::size_t>(1, ring.size())));
-    const double squared = radius * radius, squared_turn = last_step * last_step * squared;
-    for (std::size_t i = 1; i < points_.size() && points_.size() < most_points; ++i) {
-      if ((mesh_.positions[points_[i]] - here).squaredNorm() > squared_turn) continue;
-      for (Index q : mesh_.one_ring(points_[i]))
-        if (reached_from_[q] != p && (mesh_.positions[q] - here).squaredNorm() <= squared) {
-          reached_from_[q] = p;
-          points_.push_back(q);
-        }
+    if (count == 0) return {};
+    const double squared =
+        reach * reach * std::max(mesh_.mean_edge * mesh_.mean_edge, squares / static_cast<double>(count));
+    for (std::size_t i = 0; i < count && count < most_points; ++i) {
+      if (reached_[i].offset.squaredNorm() > last_step * last_step * squared) continue;
+      const auto next = mesh_.one_ring(reached_[i].vertex);
+      if (next.size() > most_points) continue;  // the hub of a wheel: to go through it from every spoke is without end
+      make_room(count, next.size());
+      for (Index q : next) {
+        if (reached_from_[q] == p) continue;
+        reached_from_[q] = p;
+        const Vec3 offset = mesh_.positions[q] - here;
+        reached_[count] = {offset, q};
+        count += offset.squaredNorm() <= squared;
+      }
     }
-    return points_;
+    return {reached_.data(), count};
   }
 
  private:
+  void make_room(std::size_t count, std::size_t more) {
+    if (reached_.size() < count + more) reached_.resize(count + more);
+  }
+
   const MeshView& mesh_;
-  std::vector<Index> points_, reached_from_;
+  std::vector<Neighbour> reached_;
+  std::vector<Index> reached_from_;
 };
 
 /// Fits z = c0 + c1 x + c2 y + c3 x^2/2 + c4 xy + c5 y^2/2 and turns its second fundamental form into the frame of the
 /// quadric's own normal at p.
-void fit_quadric(const MeshView& mesh, const std::vector<Vec3>& normals, std::span<const Index> points, Vec3& normal,
-                 ShapeOperator& fitted) {
-  const Index p = points.front();
-  const Vec3 axis = normals[p];
+/// \param normal  of p; that of the quadric afterwards
+void fit_quadric(std::span<const Neighbour> points, const std::vector<Vec3>& normals, SixUnknowns& quadric,
+                 Vec3& normal, ShapeOperator& fitted) {
+  const Vec3 axis = normal;
   const auto [u, v] = tangent_frame(axis);
   double squared_reach = 0;
-  for (Index q : points) squared_reach = std::max(squared_reach, (mesh.positions[q] - mesh.positions[p]).squaredNorm());
+  for (const Neighbour& q : points) squared_reach = std::max(squared_reach, q.offset.squaredNorm());
   if (squared_reach == 0) return;
-  const double scale = std::sqrt(squared_reach);
+  const double scale = std::sqrt(squared_reach), per_scale = 1 / scale;
 
-  SixUnknowns quadric;
-  double count = 0;
-  for (Index q : points) {
-    if (normals[q].dot(axis) < faces_away) continue;
-    const Vec3 d = (mesh.positions[q] - mesh.positions[p]) / scale;
+  quadric.start(points.size() + 1);
+  quadric.add({1, 0, 0, 0, 0, 0}, 0);  // p itself
+  for (const Neighbour& q : points) {
+    if (normals[q.vertex].dot(axis) < faces_away) continue;
+    const Vec3 d = q.offset * per_scale;
     const double x = d.dot(u), y = d.dot(v), flat = x * x + y * y;
     // A circle through p with a chord d bends by 2 z / d^2, not by 2 z / (x^2 + y^2) as a parabola does: with chords in
     // place of their shadows spheres are exact, and a fold never bends more than its points are close.
     const double stretch = flat > 0 ? d.squaredNorm() / flat : 0;
     quadric.add({1, x, y, stretch * x * x / 2, stretch * x * y, stretch * y * y / 2}, d.dot(axis));
-    ++count;
   }
   constexpr double rounding = 1e-12;  // keeps a neighbourhood on one line solvable
-  for (int i = 0; i < 3; ++i) quadric.add_to_diagonal(i, rounding * count);
-  for (int i = 3; i < 6; ++i) quadric.add_to_diagonal(i, (i == 4 ? 2 : 1) * ridge * count);  // the Hessian's norm
-  const std::array<double, 6> c = quadric.solve();
+  const double still = rounding * quadric.count(), bent = ridge * quadric.count();
+  // The ridge is on the Hessian's Frobenius norm, in which the mixed term counts twice.
+  const std::array<double, 6> c = quadric.solve({still, still, still, bent, 2 * bent, bent});
   for (double coefficient : c)
     if (!std::isfinite(coefficient)) return;
 
@@ -186,9 +227,10 @@ ShapeOperators fit_shape_operators(const MeshView& mesh, Context& context) {
   const std::size_t chunk = std::max<std::size_t>(grain, mesh.vertex_count() / 16);
   context.parallel_for(mesh.vertex_count(), chunk, [&](std::size_t first, std::size_t last) {
     Neighbourhood neighbourhood(mesh);
+    SixUnknowns quadric;
     for (Index p = static_cast<Index>(first); p < last; ++p) {
       if (p % grain == 0 && context.cancelled()) return;
-      fit_quadric(mesh, normals, neighbourhood.around(p), operators.normals[p], operators.at[p]);
+      fit_quadric(neighbourhood.around(p), normals, quadric, operators.normals[p], operators.at[p]);
     }
   });
   return operators;

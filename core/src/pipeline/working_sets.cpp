@@ -6,39 +6,64 @@
 #include <numeric>
 
 #include "base/errors.h"
+#include "toposcope/large_array.h"
 
 namespace toposcope {
 namespace {
 
 constexpr Index none = std::numeric_limits<Index>::max();
 
-/// Copies the sets that a classifier gives, and refuses what breaks its contract.
-class CheckedSink final : public WorkingSetSink {
+/// Copies the sets that a classifier gives, and refuses what is wrong at first sight.
+class CopyingSink final : public WorkingSetSink {
  public:
-  CheckedSink(const MeshView& mesh, const std::string& plugin, WorkingSets& sets)
-      : mesh_(mesh), plugin_(plugin), sets_(sets), owner_(mesh.vertex_count(), none) {}
+  CopyingSink(const std::string& plugin, WorkingSets& sets) : plugin_(plugin), sets_(sets) {}
 
   void add(std::string_view type, std::span<const Index> vertices, double saliency) override {
     const auto found = std::find(sets_.type_names.begin(), sets_.type_names.end(), type);
     if (found == sets_.type_names.end())
-      fail("of type '" + std::string(type) + "', which its descriptor does not provide");
-    if (vertices.empty()) fail("without a vertex");
-    if (!(saliency >= 0 && saliency <= 1)) fail("of saliency " + std::to_string(saliency) + ", not within 0 to 1");
-    const Index set = static_cast<Index>(sets_.size());
-    for (Index v : vertices) {
-      if (v >= mesh_.vertex_count())
-        fail("with vertex " + std::to_string(v) + "; the mesh has " + std::to_string(mesh_.vertex_count()));
-      if (owner_[v] == set) fail("that names vertex " + std::to_string(v) + " twice");
-      owner_[v] = set;
-    }
-    if (!connected(vertices, set)) fail("that is not connected");
-    const auto begin = static_cast<std::ptrdiff_t>(sets_.vertices.size());
+      fail(plugin_, "of type '" + std::string(type) + "', which its descriptor does not provide");
+    if (vertices.empty()) fail(plugin_, "without a vertex");
+    if (!(saliency >= 0 && saliency <= 1))
+      fail(plugin_, "of saliency " + std::to_string(saliency) + ", not within 0 to 1");
+    make_room(sets_.vertices.size() + vertices.size());
     sets_.vertices.insert(sets_.vertices.end(), vertices.begin(), vertices.end());
-    if (!std::is_sorted(sets_.vertices.begin() + begin, sets_.vertices.end()))
-      std::sort(sets_.vertices.begin() + begin, sets_.vertices.end());
     sets_.offsets.push_back(static_cast<Index>(sets_.vertices.size()));
     sets_.types.push_back(static_cast<Index>(found - sets_.type_names.begin()));
     sets_.saliency.push_back(saliency);
+  }
+
+  [[noreturn]] static void fail(const std::string& plugin, const std::string& what) {
+    throw PluginError(plugin, "gave a working set " + what);
+  }
+
+ private:
+  void make_room(std::size_t needed) {
+    if (needed <= sets_.vertices.capacity()) return;
+    std::vector<Index> larger;
+    reserve_large(larger, std::max(needed, 2 * sets_.vertices.capacity()));
+    larger.assign(sets_.vertices.begin(), sets_.vertices.end());
+    sets_.vertices.swap(larger);
+  }
+
+  const std::string& plugin_;
+  WorkingSets& sets_;
+};
+
+/// Sorts sets and refuses those that break the contract.
+class Checker {
+ public:
+  Checker(const MeshView& mesh, const std::string& plugin)
+      : mesh_(mesh), plugin_(plugin), owner_(large_array<Index>(mesh.vertex_count(), none)) {}
+
+  void check(std::span<Index> vertices, Index set) {
+    if (!std::is_sorted(vertices.begin(), vertices.end())) std::sort(vertices.begin(), vertices.end());
+    if (vertices.back() >= mesh_.vertex_count())
+      CopyingSink::fail(plugin_, "with vertex " + std::to_string(vertices.back()) + "; the mesh has " +
+                                     std::to_string(mesh_.vertex_count()));
+    if (const auto twice = std::adjacent_find(vertices.begin(), vertices.end()); twice != vertices.end())
+      CopyingSink::fail(plugin_, "that names vertex " + std::to_string(*twice) + " twice");
+    for (Index v : vertices) owner_[v] = set;
+    if (!connected(vertices, set)) CopyingSink::fail(plugin_, "that is not connected");
   }
 
  private:
@@ -54,11 +79,9 @@ class CheckedSink final : public WorkingSetSink {
         }
     return reached == vertices.size();
   }
-  [[noreturn]] void fail(const std::string& what) const { throw PluginError(plugin_, "gave a working set " + what); }
 
   const MeshView& mesh_;
   const std::string& plugin_;
-  WorkingSets& sets_;
   std::vector<Index> owner_;
   std::vector<Index> frontier_;
 };
@@ -69,8 +92,16 @@ WorkingSets classify_mesh(const MeshView& mesh, const WorkingSetClassifier& clas
                           const std::vector<std::string>& types, Context& context) {
   WorkingSets sets;
   sets.type_names = types;
-  CheckedSink sink(mesh, plugin, sets);
+  CopyingSink sink(plugin, sets);
   classifier.classify(mesh, context, sink);
+  // Few chunks: each has a mark per vertex of the mesh.
+  const std::size_t chunk = std::max<std::size_t>(16, sets.size() / 8);
+  context.parallel_for(sets.size(), chunk, [&](std::size_t first, std::size_t last) {
+    Checker checker(mesh, plugin);
+    for (std::size_t s = first; s < last; ++s)
+      checker.check(std::span(sets.vertices).subspan(sets.offsets[s], sets.offsets[s + 1] - sets.offsets[s]),
+                    static_cast<Index>(s));
+  });
   return sets;
 }
 

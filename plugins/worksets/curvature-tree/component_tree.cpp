@@ -18,49 +18,43 @@ constexpr Index none = std::numeric_limits<Index>::max();
 /// the end of an earlier level are for ever the first ones from its head.
 class Forest {
  public:
-  explicit Forest(Index count)
-      : parent_(toposcope::large_array<Index>(count, none)),
-        next_(toposcope::large_array<Index>(count, none)),
-        tail_(toposcope::large_array<Index>(count)),
-        size_(toposcope::large_array<Index>(count, 1U)) {}
+  explicit Forest(Index count) : nodes_(toposcope::large_array<Node>(count)) {}
 
-  bool contains(Index v) const { return parent_[v] != none; }
-  void insert(Index v) {
-    parent_[v] = v;
-    tail_[v] = v;
-  }
+  bool contains(Index v) const { return nodes_[v].parent != none; }
+  void insert(Index v) { nodes_[v] = {v, none, v, 1}; }
   Index find(Index v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    while (nodes_[v].parent != v) v = nodes_[v].parent = nodes_[nodes_[v].parent].parent;
     return v;
   }
   /// Both roots; `b` is appended to `a`.
   void join(Index a, Index b) {
-    parent_[b] = a;
-    next_[tail_[a]] = b;
-    tail_[a] = tail_[b];
-    size_[a] += size_[b];
+    nodes_[b].parent = a;
+    nodes_[nodes_[a].tail].next = b;
+    nodes_[a].tail = nodes_[b].tail;
+    nodes_[a].size += nodes_[b].size;
   }
-  Index size(Index root) const { return size_[root]; }
+  Index size(Index root) const { return nodes_[root].size; }
 
-  /// The first `count` vertices from a head, ascending.
-  std::vector<Index> first(Index head, Index count) {
-    std::vector<Index> vertices;
-    vertices.reserve(count);
-    if (count < parent_.size() / 64) {
-      for (Index v = head; count > 0; --count, v = next_[v]) vertices.push_back(v);
-      std::sort(vertices.begin(), vertices.end());
-      return vertices;
+  /// Appends the first `count` vertices from a head, ascending.
+  void append_first(Index head, Index count, std::vector<Index>& out) {
+    if (count < nodes_.size() / 64) {
+      const auto begin = static_cast<std::ptrdiff_t>(out.size());
+      for (Index v = head; count > 0; --count, v = nodes_[v].next) out.push_back(v);
+      std::sort(out.begin() + begin, out.end());
+      return;
     }
-    marks_.assign(parent_.size() / 64 + 1, 0);  // many vertices: faster than sorting
-    for (Index v = head; count > 0; --count, v = next_[v]) marks_[v / 64] |= std::uint64_t{1} << v % 64;
+    marks_.assign(nodes_.size() / 64 + 1, 0);  // many vertices: faster than sorting
+    for (Index v = head; count > 0; --count, v = nodes_[v].next) marks_[v / 64] |= std::uint64_t{1} << v % 64;
     for (Index word = 0; word < marks_.size(); ++word)
       for (std::uint64_t bits = marks_[word]; bits != 0; bits &= bits - 1)
-        vertices.push_back(64 * word + static_cast<Index>(std::countr_zero(bits)));
-    return vertices;
+        out.push_back(64 * word + static_cast<Index>(std::countr_zero(bits)));
   }
 
  private:
-  std::vector<Index> parent_, next_, tail_, size_;
+  struct Node {  // together: a visit touches one line of the cache
+    Index parent = none, next = none, tail = none, size = 0;
+  };
+  std::vector<Node> nodes_;
   std::vector<std::uint64_t> marks_;
 };
 
@@ -116,15 +110,21 @@ class Flood {
     for (Offer& offer : offers_) offer.saliency = std::max(offer.saliency, 0.0);
   }
 
-  std::vector<Component> best() {
+  Components best() {
     const auto better = [](const Offer& a, const Offer& b) {
       return std::tuple(-a.worth(), b.size, a.head) < std::tuple(-b.worth(), a.size, b.head);
     };
     std::sort(offers_.begin(), offers_.end(), better);
     if (offers_.size() > limits_.max_components) offers_.resize(limits_.max_components);
-    std::vector<Component> components;
-    components.reserve(offers_.size());
-    for (const Offer& offer : offers_) components.push_back({forest_.first(offer.head, offer.size), offer.saliency});
+    std::size_t total = 0;
+    for (const Offer& offer : offers_) total += offer.size;
+    Components components;
+    toposcope::reserve_large(components.vertices, total);
+    for (const Offer& offer : offers_) {
+      forest_.append_first(offer.head, offer.size, components.vertices);
+      components.offsets.push_back(components.vertices.size());
+      components.saliency.push_back(offer.saliency);
+    }
     return components;
   }
 
@@ -196,8 +196,7 @@ class Flood {
 
 }  // namespace
 
-std::vector<Component> components(const toposcope::MeshView& mesh, const Levels& level, double step,
-                                  const Limits& limits) {
+Components components(const toposcope::MeshView& mesh, const Levels& level, double step, const Limits& limits) {
   Flood flood(mesh, level, step, limits);
   flood.run();
   return flood.best();

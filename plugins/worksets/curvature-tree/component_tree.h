@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "toposcope/mesh_view.h"
@@ -20,18 +21,24 @@ struct Limits {
   std::size_t max_components;  ///< those of greatest saliency times root of size are kept
 };
 
-struct Component {
-  std::vector<Index> vertices;  ///< ascending
+/// In compressed rows: the vertices of component i are [offsets[i], offsets[i + 1]), ascending.
+struct Components {
+  std::vector<std::size_t> offsets = {0};
+  std::vector<Index> vertices;
   /// 1 - exp(-(fall of the field until the component has grown by the growth factor or merged)): near 1 for a
   /// component with a steep border, near 0 for a passing stage.
-  double saliency = 0;
+  std::vector<double> saliency;
+
+  std::size_t size() const { return saliency.size(); }
+  std::span<const Index> operator[](std::size_t i) const {
+    return std::span(vertices).subspan(offsets[i], offsets[i + 1] - offsets[i]);
+  }
 };
 
 /// Components of {level >= t} over all t: those just before two merge, and between merges one for each growth by the
 /// factor. Time: that of sorting the levels by counting, a union-find over the edges, and the total size of what is
 /// returned. Sorted by saliency times the root of the size, descending.
 /// \param step  of the field per level
-std::vector<Component> components(const toposcope::MeshView& mesh, const Levels& level, double step,
-                                  const Limits& limits);
+Components components(const toposcope::MeshView& mesh, const Levels& level, double step, const Limits& limits);
 
 }  // namespace component_tree

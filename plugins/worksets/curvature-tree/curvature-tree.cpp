@@ -59,12 +59,13 @@ class CurvatureTree final : public WorkingSetClassifier {
     const std::array<component_tree::Levels, fields.size()> levels = read_fields(mesh, context);
     component_tree::Limits limits = limits_;
     limits.max_vertices = static_cast<Index>(max_part_ * mesh.vertex_count());
-    std::array<std::vector<component_tree::Component>, fields.size()> found;
+    std::array<component_tree::Components, fields.size()> found;
     context.parallel_for(fields.size(), 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) found[i] = component_tree::components(mesh, levels[i], step, limits);
     });
     for (std::size_t i = 0; i < fields.size(); ++i)
-      for (const component_tree::Component& set : found[i]) sink.add(fields[i].first, set.vertices, set.saliency);
+      for (std::size_t set = 0; set < found[i].size(); ++set)
+        sink.add(fields[i].first, found[i][set], found[i].saliency[set]);
   }
 
  private:
