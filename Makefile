@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # make demo   install what is needed, build, label a cup and classify a tee
 # make test   install what is needed, build, run the tests
+# make fuzz   fuzz the mesh readers, FUZZ_SECONDS for each format
 PRESET ?= release
 BUILD := build/$(PRESET)
 TOPOSCOPE := $(BUILD)/bin/toposcope
 # Compiling Eigen and Ceres takes about 1 GB a job.
 JOBS ?= $(shell nproc)
 
-.PHONY: all deps configure demo test format lint clean
+.PHONY: all deps configure demo test fuzz format lint clean
 all: configure
 	cmake --build $(BUILD) -j $(JOBS)
 
@@ -28,6 +29,23 @@ demo: configure
 
 test: all
 	ctest --preset $(PRESET) -j $(JOBS)
+
+FUZZ_SECONDS ?= 600
+# Findings are left in build/fuzz/findings; the fuzzer says how to repeat one.
+fuzz: deps
+	@./scripts/install-deps clang-14
+	@mkdir -p build
+	@cmake --preset fuzz > build/fuzz.log 2>&1 || { cat build/fuzz.log; exit 1; }
+	cmake --build build/fuzz -j $(JOBS) --target fuzz
+	@mkdir -p build/fuzz/findings
+	build/fuzz/bin/make_corpus build/fuzz/seeds
+	@set -e; for format in ply obj stl off gltf; do \
+	  mkdir -p build/fuzz/corpus/$$format; \
+	  echo "fuzz_$$format, $(FUZZ_SECONDS) s"; \
+	  build/fuzz/bin/fuzz_$$format -max_total_time=$(FUZZ_SECONDS) -rss_limit_mb=512 -timeout=5 -max_len=16384 \
+	    -print_final_stats=1 -verbosity=0 -artifact_prefix=build/fuzz/findings/$$format- \
+	    build/fuzz/corpus/$$format build/fuzz/seeds/$$format; \
+	done
 
 format:
 	git ls-files '*.cpp' '*.h' | xargs clang-format -i

@@ -50,7 +50,7 @@ struct GltfDocument {
   std::optional<std::string_view> binary;  ///< the second chunk of a GLB
 };
 
-/// Takes a GLB apart, parses the JSON and drops of it what says nothing about triangles. Nesting is bounded.
+/// Takes a GLB apart and parses the JSON, whose nesting is bounded.
 /// \throw MeshError  not glTF 2, cut short, damaged JSON
 GltfDocument read_gltf_document(const FileText& file);
 

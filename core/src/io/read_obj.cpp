@@ -24,7 +24,7 @@ TriangleSoup read_obj(const FileText& file) {
   while (text.find_word()) {
     const MeshFilePlace place = text.place();
     const std::string_view keyword = text.word();
-    if (keyword == "v") {
+    if (keyword == "v" || keyword == "V") {
       Vec3 position;
       for (double& coordinate : position) {
         const std::string_view word = text.word();
@@ -32,7 +32,7 @@ TriangleSoup read_obj(const FileText& file) {
         coordinate = text.number(word, "a coordinate");
       }
       builder.add_position(position, place);
-    } else if (keyword == "f") {
+    } else if (keyword == "f" || keyword == "F" || keyword == "fo") {
       corners.clear();
       for (std::string_view word = text.word(); !word.empty(); word = text.word())
         corners.push_back(corner(text, word, builder.position_count()));

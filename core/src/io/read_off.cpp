@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <bit>
 
 #include "io/readers.h"
 #include "io/text_cursor.h"
@@ -20,26 +21,97 @@ std::size_t count(const TextCursor& text, std::string_view word, std::string_vie
   return static_cast<std::size_t>(value);
 }
 
-/// Reads past the keyword, which may be left out, and returns the first count, which may be glued to it.
-std::string_view first_count(TextCursor& text) {
+/// What stands before the counts.
+struct Keyword {
+  std::string_view first_count;  ///< which may be glued to the keyword
+  std::string_view prefix;       ///< "CN" of CNOFF: what follows each position
+  bool binary = false;
+};
+
+/// Reads past the keyword, which may be left out.
+Keyword keyword(TextCursor& text) {
   const std::string_view word = text.need_word("OFF");
-  if (is_number(word)) return word;
+  if (is_number(word)) return {word, {}};
   const std::size_t off = word.find("OFF");
   if (off == word.npos || word.substr(0, off).find_first_not_of("STCN4n") != word.npos)
     text.fail("expected OFF but found " + quoted(word) + "; is this an OFF file?");
   if (word.substr(0, off).find_first_of("4n") != word.npos)
     text.fail("positions in four or n dimensions (" + quoted(word) + ") are not supported; write them in three");
-  if (word.size() > off + 3) return word.substr(off + 3);
+  const std::string_view prefix = word.substr(0, off);
+  if (word.size() > off + 3) return {word.substr(off + 3), prefix};
   const std::string_view next = text.need_word("the number of vertices");
-  if (next == "BINARY") text.fail("binary OFF is not supported; save the mesh as PLY");
-  return next;
+  return {next, prefix, next == "BINARY"};
+}
+
+/// Big-endian numbers of 32 bits.
+class BinaryNumbers {
+ public:
+  BinaryNumbers(const FileText& file, std::size_t begin) : file_(file), at_(begin) {}
+  MeshFilePlace place() const { return {at_, MeshFilePlace::Unit::byte}; }
+  float real() { return std::bit_cast<float>(word()); }
+  std::int32_t integer() { return std::bit_cast<std::int32_t>(word()); }
+  void skip(std::size_t numbers) { at_ += std::min(4 * numbers, file_.bytes.size() - at_); }
+  /// A count of things of so many numbers each, that the rest of the file could hold.
+  std::size_t count(const std::string& what, std::size_t numbers_each) {
+    const MeshFilePlace here = place();
+    const std::int32_t value = integer();
+    const std::size_t rest = file_.bytes.size() - at_;
+    if (value < 0 || static_cast<std::size_t>(value) > rest / (4 * numbers_each))
+      fail_at(file_.name, here,
+              std::to_string(value) + " as " + what + ", but only " + std::to_string(rest) +
+                  " bytes follow; the file is damaged or cut short");
+    return static_cast<std::size_t>(value);
+  }
+
+ private:
+  std::uint32_t word() {
+    if (file_.bytes.size() - at_ < 4) fail_at(file_.name, place(), "the file ends within its data; it is cut short");
+    std::uint32_t value = 0;
+    for (int i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(file_.bytes[at_++]);
+    return value;
+  }
+
+  const FileText& file_;
+  std::size_t at_;
+};
+
+TriangleSoup read_binary(const FileText& file, std::size_t begin, std::string_view prefix) {
+  const auto has = [&](char c) { return prefix.find(c) != prefix.npos; };
+  const std::size_t more = (has('N') ? 3U : 0U) + (has('C') ? 4U : 0U) + (has('S') ? 2U : 0U);
+  BinaryNumbers numbers(file, begin);
+  const std::size_t vertices = numbers.count("the number of vertices", 3 + more);
+  const std::size_t faces = numbers.count("the number of faces", 2);
+  numbers.skip(1);  // edges
+  SoupBuilder builder(file.name);
+  builder.reserve(vertices, faces);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const MeshFilePlace place = numbers.place();
+    Vec3 position;
+    for (double& coordinate : position) coordinate = numbers.real();
+    builder.add_position(position, place);
+    numbers.skip(more);
+  }
+  std::vector<std::int64_t> corners;
+  for (std::size_t f = 0; f < faces; ++f) {
+    const MeshFilePlace place = numbers.place();
+    corners.resize(numbers.count("the number of corners of a face", 1));
+    for (std::int64_t& corner : corners) corner = numbers.integer();
+    builder.add_face(corners, place);
+    numbers.skip(numbers.count("the number of colour components", 1));
+  }
+  return builder.finish();
 }
 
 }  // namespace
 
 TriangleSoup read_off(const FileText& file) {
   TextCursor text(file.name, file.bytes, {.comments = true, .continuations = false});
-  const std::size_t vertices = count(text, first_count(text), "the number of vertices", 3);
+  const Keyword header = keyword(text);
+  if (header.binary) {
+    text.skip_line();
+    return read_binary(file, file.bytes.size() - text.bytes_left(), header.prefix);
+  }
+  const std::size_t vertices = count(text, header.first_count, "the number of vertices", 3);
   const std::string_view second = text.need_word("the number of faces");
   const std::size_t faces = count(text, second, "the number of faces", 1);
   text.skip_line();  // the number of edges, which may be left out and means nothing

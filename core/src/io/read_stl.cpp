@@ -23,18 +23,18 @@ T little_endian(const char* bytes) {
 /// Gives equal positions the same vertex, numbered in order of appearance. Open addressing: one array of indices.
 class Welder {
  public:
-  Welder(SoupBuilder& builder, std::size_t corners) : builder_(builder) {
-    slots_.assign(std::bit_ceil(std::max<std::size_t>(corners, 8) * 2), empty);
+  /// \param facets  about how many: a closed surface has half as many vertices, and a small table stays in the cache
+  Welder(SoupBuilder& builder, std::size_t facets) : builder_(builder) {
+    slots_.assign(std::bit_ceil(std::max<std::size_t>(facets, 8)), empty);
   }
 
   std::int64_t vertex(const Vec3& given, MeshFilePlace place) {
     const Vec3 position = given + Vec3::Zero();  // -0 becomes 0
-    if (2 * positions_.size() >= slots_.size()) grow();
+    if (2 * builder_.position_count() >= slots_.size()) grow();
     Index& slot = find(position);
     if (slot == empty) {
+      slot = static_cast<Index>(builder_.position_count());
       builder_.add_position(position, place);
-      slot = static_cast<Index>(positions_.size());
-      positions_.push_back(position);
     }
     return slot;
   }
@@ -51,24 +51,26 @@ class Welder {
       hash ^= hash >> 31;
     }
     std::size_t i = hash & (slots_.size() - 1);
-    while (slots_[i] != empty && positions_[slots_[i]] != position) i = (i + 1) & (slots_.size() - 1);
+    while (slots_[i] != empty && builder_.position(slots_[i]) != position) i = (i + 1) & (slots_.size() - 1);
     return slots_[i];
   }
 
   void grow() {
     slots_.assign(2 * slots_.size(), empty);
-    for (Index v = 0; v < positions_.size(); ++v) find(positions_[v]) = v;
+    for (Index v = 0; v < builder_.position_count(); ++v) find(builder_.position(v)) = v;
   }
 
   SoupBuilder& builder_;
   std::vector<Index> slots_;
-  std::vector<Vec3> positions_;
 };
 
 TriangleSoup read_binary(const FileText& file) {
   const std::string_view bytes = file.bytes;
-  const std::size_t facets = little_endian<std::uint32_t>(bytes.data() + header_size);
+  std::size_t facets = little_endian<std::uint32_t>(bytes.data() + header_size);
   const std::size_t held = (bytes.size() - header_size - 4) / facet_size;
+  // Programs that write as they go leave the count as it was, at 0 or at its greatest: the size tells better.
+  constexpr std::size_t unknown = std::numeric_limits<std::uint32_t>::max();
+  if ((bytes.size() - header_size - 4) % facet_size == 0 && (facets < held || facets == unknown)) facets = held;
   if (facets > held)
     fail_at(file.name, {header_size, MeshFilePlace::Unit::byte},
             "the header announces " + std::to_string(facets) + " facets but the file holds " + std::to_string(held) +

@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/text_cursor.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 
 namespace toposcope {
 namespace {
 
+enum : unsigned char { in_word, space, line_end };
+
+constexpr auto kinds = [] {
+  std::array<unsigned char, 256> table{};
+  for (unsigned char c : {' ', '\t', '\v', '\f', '\0'}) table[c] = space;
+  for (unsigned char c : {'\n', '\r'}) table[c] = line_end;
+  return table;
+}();
+
 bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\0';
+  return kinds[static_cast<unsigned char>(c)] == space;
 }
 bool is_word_end(char c) {
-  return is_space(c) || c == '\n' || c == '\r';
+  return kinds[static_cast<unsigned char>(c)] != in_word;
 }
 
 /// std::from_chars takes no leading '+'.

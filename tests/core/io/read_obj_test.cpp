@@ -21,6 +21,11 @@ TEST(ReadObj, CommentsKeywordsBlanksAndLineEnds) {
                 ".OBJ"));
 }
 
+TEST(ReadObj, WeightsAndColoursBehindTheCoordinates) {
+  expect_square(
+      read_text("v 0 0 0 1\nv 1 0 0 0.25 0.5 1.0\nv 1 1 0 255 0 0 255\nV 0 1 0 nan\nF 1 2 3\nfo 1 3 4", ".obj"));
+}
+
 TEST(ReadObj, FacesMayComeBeforeTheirVertices) {
   expect_square(read_text("f 1 2 3 4\n" + square, ".obj"));
 }

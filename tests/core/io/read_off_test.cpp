@@ -22,11 +22,38 @@ TEST(ReadOff, ColoursNormalsAndCommentsAreSkipped) {
                 ".off"));
 }
 
+/// A number as binary OFF holds it.
+template <class T>
+std::string big(std::initializer_list<T> values) {
+  std::string result;
+  for (T value : values) result += test::bytes(value, std::endian::big);
+  return result;
+}
+
+TEST(ReadOff, Binary) {
+  const auto file = [](const std::string& keyword, int more) {
+    std::string result = keyword + big<std::int32_t>({4, 1, 0});
+    for (const auto& [x, y] : {std::pair{0.F, 0.F}, {1.F, 0.F}, {1.F, 1.F}, {0.F, 1.F}}) {
+      result += big({x, y, 0.F});
+      for (int i = 0; i < more; ++i) result += big({0.5F});
+    }
+    return result + big<std::int32_t>({4, 0, 1, 2, 3}) + big<std::int32_t>({2}) + big({1.F, 2.F});
+  };
+  expect_square(read_text(file("OFF BINARY\n", 0), ".off"));
+  expect_square(read_text(file("# comment\nCOFF BINARY \r\n", 4), ".off"));
+  expect_square(read_text(file("STCNOFF BINARY\n", 9), ".txt"));
+  const std::string whole = file("NOFF BINARY\n", 3);
+  for (std::size_t size = 0; size < whole.size() - 8; ++size)
+    EXPECT_NE(refusal(whole.substr(0, size), ".off"), "") << size << " bytes";
+  EXPECT_TRUE(says(refusal("OFF BINARY\n" + big<std::int32_t>({-1, 1, 0}), ".off"), "byte 11: -1 as the number"));
+  EXPECT_TRUE(says(refusal("OFF BINARY\n" + big<std::int32_t>({0, 1 << 30, 0}), ".off"), "byte 15: 1073741824 as"));
+}
+
 TEST(ReadOff, Refusals) {
   EXPECT_TRUE(says(refusal("OFF\n353535235358 1 0\n" + body, ".off"), "mesh.off:2: the header announces 353535235358"));
   EXPECT_TRUE(says(refusal("OFF\n4 99999999999 0\n" + body, ".off"), "as the number of faces"));
   EXPECT_TRUE(says(refusal("OFF\n-4 1 0\n" + body, ".off"), "announces -4"));
-  EXPECT_TRUE(says(refusal("OFF BINARY\n4 1 0\n", ".off"), "binary OFF is not supported"));
+  EXPECT_TRUE(says(refusal("OFF BINARY\n4 1 0\n", ".off"), "mesh.off: byte 11: "));
   EXPECT_TRUE(says(refusal("4OFF\n4 1 0\n" + body, ".off"), "not supported"));
   EXPECT_TRUE(says(refusal("COFFEE\n4 1 0\n" + body, ".off"), "found 'EE'"));
   EXPECT_TRUE(says(refusal("tea\n4 1 0\n" + body, ".off"), "expected OFF but found 'tea'"));

@@ -58,6 +58,7 @@ TEST(ReadPly, Ascii) {
   expect_square(read_text(ascii_header + "0 0 0 1 0 0\n+1 1.0e0 0\n 0 1 -0\n4 0 1\n 2 3", ".ply"));
   expect_square(read_text("\xEF\xBB\xBF" + ascii_header + ascii_body, ".ply"));
   expect_square(read_text(ascii_header + ascii_body, ".stl"));
+  expect_square(read_text(replaced(with_crlf(ascii_header), "float x\r\n", "float x\n") + ascii_body, ".ply"));
 }
 
 TEST(ReadPly, PolygonsKeepTheirOrigin) {
@@ -66,6 +67,42 @@ TEST(ReadPly, PolygonsKeepTheirOrigin) {
                                       ".ply");
   EXPECT_EQ(soup.input_faces, 4U);
   EXPECT_EQ(soup.face_origin, (std::vector<Index>{0, 1, 1, 3}));
+}
+
+TEST(ReadPly, StripsAlternateAndEndAtMinusOne) {
+  const std::string header = replaced(replaced(ascii_header, "element face 1", "element tristrips 2"), "uchar", "int");
+  const TriangleSoup soup =
+      read_text(header + replaced(ascii_body, "4 0 1 2 3", "9 0 1 2 3 -1 3 1 0 0\n3 2 1 0"), ".ply");
+  EXPECT_EQ(soup.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {3, 1, 0}, {2, 1, 0}}));
+  EXPECT_EQ(soup.input_faces, 4U) << "the one that repeats a corner joins strips";
+}
+
+TEST(ReadPly, BinaryFacesOfMixedSizes) {
+  std::string header = replaced(ascii_header, "ascii", "binary_little_endian");
+  header = replaced(replaced(header, "face 1", "face 5"), "vertex_indices\n", "vertex_indices\nproperty uchar red\n");
+  std::string body;
+  for (float coordinate : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 1.F, 1.F, 0.F, 0.F, 1.F, 0.F}) body += bytes(coordinate);
+  const auto face = [&](std::initializer_list<std::int32_t> corners) {
+    body += static_cast<char>(corners.size());
+    for (std::int32_t corner : corners) body += bytes(corner);
+    body += 'r';
+  };
+  face({0, 1, 2});
+  face({0, 1, 2, 3});
+  face({0, 1});
+  face({2, 3, 0});
+  const std::size_t last = header.size() + body.size();
+  std::string good = body;
+  face({1, 2, 3});
+  const TriangleSoup soup = read_text(header + body, ".ply");
+  EXPECT_EQ(soup.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}, {2, 3, 0}, {1, 2, 3}}));
+  EXPECT_EQ(soup.face_origin, (std::vector<Index>{0, 1, 1, 3, 4}));
+  for (std::int32_t wrong : {4, -1, std::numeric_limits<std::int32_t>::min()}) {
+    body = good;
+    face({1, 2, wrong});
+    EXPECT_TRUE(says(refusal(header + body, ".ply"), "byte " + std::to_string(last + 1) + ": "));
+    EXPECT_TRUE(says(refusal(header + body, ".ply"), "vertex " + std::to_string(wrong) + " (from 0)"));
+  }
 }
 
 TEST(ReadPly, BinaryInBothOrdersWithAllTypesAndForeignElements) {

@@ -43,6 +43,20 @@ TEST(ReadStl, BinaryAlsoWhereItBeginsWithSolid) {
   expect_square(read_text(binary("made by hand", 2) + "more behind", ".stl"));
 }
 
+TEST(ReadStl, TheSizeTellsWhereTheCountWasNotWritten) {
+  for (std::uint32_t count : {0U, 1U, 4294967295U}) expect_square(read_text(binary("COLOR=rgba", count), ".stl"));
+  EXPECT_EQ(read_text(binary("x", 1) + "behind", ".stl").triangles.size(), 1U) << "not whole facets: the count tells";
+}
+
+TEST(ReadStl, SeveralSolidsAreOneMesh) {
+  const TriangleSoup soup = read_text(ascii + "\n" + ascii, ".stl");
+  EXPECT_EQ(soup.triangles.size(), 4U);
+  EXPECT_EQ(soup.positions.size(), 4U);
+  std::string old_mac = ascii;
+  std::replace(old_mac.begin(), old_mac.end(), '\n', '\r');
+  expect_square(read_text(old_mac, ".stl"));
+}
+
 TEST(ReadStl, WeldsManyCorners) {
   // Every corner of a fan around one point, in an order that visits each position twice.
   std::string text = "solid\n";
@@ -60,7 +74,7 @@ TEST(ReadStl, WeldsManyCorners) {
 
 TEST(ReadStl, Refusals) {
   EXPECT_TRUE(says(refusal(binary("x", 3), ".stl"), "announces 3 facets but the file holds 2"));
-  EXPECT_TRUE(says(refusal(binary("x", 4294967295U), ".stl"), "announces 4294967295 facets"));
+  EXPECT_TRUE(says(refusal(binary("x", 4294967295U) + "x", ".stl"), "announces 4294967295 facets"));
   EXPECT_TRUE(says(refusal(binary("x", 0).substr(0, 84), ".stl"), "no vertex"));
   EXPECT_TRUE(says(refusal("garbage", ".stl"), "cut short"));
   EXPECT_TRUE(says(refusal(binary("x", 2, std::numeric_limits<float>::quiet_NaN()), ".stl"), "byte 146: vertex 3"));
