@@ -99,17 +99,17 @@ class Neighbourhood {
     reached_from_[p] = p;
     make_room(0, ring.size());
     std::size_t count = 0;
-    double squares = 0;
+    double edges = 0;
     for (Index q : ring) {
       reached_[count] = {mesh_.positions[q] - here, q};
       reached_from_[q] = p;
-      squares += reached_[count++].offset.squaredNorm();
+      edges += reached_[count++].offset.norm();
     }
     if (count == 0) return {};
-    const double squared =
-        reach * reach * std::max(mesh_.mean_edge * mesh_.mean_edge, squares / static_cast<double>(count));
+    const double radius = reach * std::max(mesh_.mean_edge, edges / static_cast<double>(count));
+    const double squared = radius * radius, squared_turn = last_step * last_step * squared;
     for (std::size_t i = 0; i < count && count < most_points; ++i) {
-      if (reached_[i].offset.squaredNorm() > last_step * last_step * squared) continue;
+      if (reached_[i].offset.squaredNorm() > squared_turn) continue;
       const auto next = mesh_.one_ring(reached_[i].vertex);
       if (next.size() > most_points) continue;  // the hub of a wheel: to go through it from every spoke is without end
       make_room(count, next.size());
