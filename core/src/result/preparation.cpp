@@ -71,10 +71,10 @@ std::string to_text(const Preparation& preparation) {
     for (const auto& [name, value] : use.options) text += " " + name + " " + value;
     text += "\n";
   }
-  text += fmt::format("\n  {:<20}{:<24}{}\n", "", "repaired", preparation.prepared ? "prepared" : "");
+  text += fmt::format("\n  {:<20}{:<30}{}\n", "", "repaired", preparation.prepared ? "prepared" : "");
   const auto row = [&](const char* name, const auto& value) {
     const auto after = preparation.prepared ? fmt::format("{}", value(*preparation.prepared)) : "";
-    text += fmt::format("  {:<20}{:<24}{}\n", name, value(before), after);
+    text += fmt::format("  {:<20}{:<30}{}\n", name, value(before), after);
   };
   row("vertices", [](const MeshSummary& m) { return m.vertices; });
   row("faces", [](const MeshSummary& m) { return m.faces; });
