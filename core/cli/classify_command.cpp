@@ -3,7 +3,6 @@
 
 #include "base/errors.h"
 #include "commands.h"
-#include "io/mesh_io.h"
 #include "model/read_model.h"
 #include "resources.h"
 #include "result/classification.h"
@@ -12,7 +11,7 @@
 namespace toposcope::cli {
 
 int classify(const ClassifyOptions& options) {
-  Session session(options);
+  PipelineSession session(options);
   std::vector<Model> models;
   std::vector<Stations> stations;
   for (const fs::path& file : find_models(options.models)) {
@@ -24,7 +23,7 @@ int classify(const ClassifyOptions& options) {
     stations.push_back(session.stations(models.back()));
   }
   return for_each_mesh(options.meshes, session, [&](const fs::path& path) {
-    const Mesh mesh = read_mesh(path);
+    const Mesh mesh = session.read(path).mesh;
     std::vector<Result> results;
     for (std::size_t m = 0; m < models.size(); ++m) {
       const Analysis analysis = analyze(mesh, models[m], stations[m], {}, session.context());

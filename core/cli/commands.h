@@ -33,6 +33,14 @@ struct ClassifyOptions : CommonOptions {
   std::string models;
 };
 
+struct PrepareOptions : CommonOptions {
+  std::vector<fs::path> meshes;
+  fs::path out;
+  std::optional<std::uint32_t> faces, decimate;
+  std::optional<double> edge;  ///< in the mesh's own unit
+  std::string smooth;          ///< passes; empty: not asked for
+};
+
 struct ModelOptions {
   std::vector<fs::path> plugin_dirs;
   std::string model;
@@ -58,6 +66,7 @@ struct SampleOptions : CommonOptions {
 /// Each returns the exit code; errors leave as exceptions (base/errors.h).
 int run(const RunOptions& options);
 int classify(const ClassifyOptions& options);
+int prepare(const PrepareOptions& options);
 int model_check(const ModelOptions& options);
 int model_show(const ModelOptions& options);
 int plugins_list(const PluginsOptions& options);

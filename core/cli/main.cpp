@@ -17,19 +17,60 @@ void add_plugin_dirs(CLI::App* app, std::vector<fs::path>& dirs) {
   app->add_option("--plugin-dir", dirs, "further folders with plugins")->type_name("DIR")->allow_extra_args(false);
 }
 
-void add_common(CLI::App* app, CommonOptions& options) {
+void add_session(CLI::App* app, CommonOptions& options) {
   add_plugin_dirs(app, options.plugin_dirs);
-  app->add_option("--pipeline", options.pipeline, "name or file of the pipeline")->capture_default_str();
-  app->add_option("--labeler", options.labeler, "labeler to use instead of the pipeline's")->type_name("ID");
   app->add_option("--set", options.overrides, "override one value: station.option=value")
       ->type_name("S.O=V")
       ->allow_extra_args(false);
   app->add_option("--threads", options.threads, "threads; 0: one per processor")
       ->check(CLI::Range(0U, 1024U))
       ->capture_default_str();
-  app->add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
   app->add_flag("-q,--quiet", options.quiet, "errors only");
   app->add_flag("-v,--verbose", options.verbose, "say more");
+}
+
+void add_common(CLI::App* app, CommonOptions& options) {
+  app->add_option("--pipeline", options.pipeline, "name or file of the pipeline")->capture_default_str();
+  app->add_option("--labeler", options.labeler, "labeler to use instead of the pipeline's")->type_name("ID");
+  app->add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
+  add_session(app, options);
+}
+
+/// `--smooth scan.ply` means the default and a mesh.
+void sort_out_smooth(const CLI::Option* smooth, PrepareOptions& options) {
+  if (smooth->count() == 0) return;
+  const std::string given = options.smooth;
+  const bool number = !given.empty() && given.find_first_not_of("+-.0123456789eE") == given.npos;
+  if (number) return;
+  options.smooth = "10";
+  if (!given.empty()) options.meshes.insert(options.meshes.begin(), given);
+}
+
+void add_prepare(CLI::App& app, PrepareOptions& options, int& code) {
+  CLI::App* prepare_app =
+      app.add_subcommand("prepare", "repair meshes, change their resolution, say what they are like");
+  prepare_app->add_option("mesh", options.meshes, "PLY, OBJ, STL, OFF or glTF files")->type_name("MESH...");
+  prepare_app->add_option("-o,--out", options.out, "mesh to write; of several meshes, or with a folder: DIR/<mesh>.ply")
+      ->type_name("MESH|DIR");
+  const CLI::Range count(1U, 100000000U);
+  CLI::Option* smooth = prepare_app->add_option("--smooth", options.smooth, "smooth without shrinking; 10 passes")
+                            ->type_name("[PASSES]")
+                            ->expected(0, 1);
+  prepare_app->add_option("--decimate", options.decimate, "fewer faces, the shape kept as well as can be")
+      ->type_name("N")
+      ->check(count);
+  CLI::Option* faces =
+      prepare_app->add_option("--faces", options.faces, "even edges, about N faces")->type_name("N")->check(count);
+  prepare_app->add_option("--edge", options.edge, "even edges of about length L, in the mesh's unit")
+      ->type_name("L")
+      ->excludes(faces);
+  prepare_app->add_flag("--json", options.json, "print a JSON object per mesh");
+  add_session(prepare_app, options);
+  prepare_app->callback([&options, &code, smooth] {
+    sort_out_smooth(smooth, options);
+    if (options.meshes.empty()) throw CLI::RequiredError("mesh");
+    code = prepare(options);
+  });
 }
 
 int dispatch(int argc, char** argv) {
@@ -61,6 +102,9 @@ int dispatch(int argc, char** argv) {
   classify_app->add_flag("--json", classify_options.json, "print a JSON object per mesh");
   add_common(classify_app, classify_options);
   classify_app->callback([&] { code = classify(classify_options); });
+
+  PrepareOptions prepare_options;
+  add_prepare(app, prepare_options, code);
 
   SampleOptions sample_options;
   CLI::App* sample_app = app.add_subcommand("sample", "make a parametric object and its truth");

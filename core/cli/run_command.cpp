@@ -2,57 +2,37 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <set>
 
-#include "base/errors.h"
 #include "commands.h"
 #include "io/mesh_io.h"
 #include "model/read_model.h"
+#include "output_folder.h"
 #include "resources.h"
 #include "result/result.h"
 #include "session.h"
 
 namespace toposcope::cli {
-namespace {
-
-/// Two meshes of one stem would write over each other.
-void refuse_same_stem(const std::vector<fs::path>& meshes) {
-  std::set<std::string> stems;
-  for (const fs::path& mesh : meshes)
-    if (!stems.insert(mesh.stem().string()).second)
-      throw UsageError("two meshes are named '" + mesh.stem().string() +
-                       "': their results would have the same folder below --out; run them apart");
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw UsageError(folder.string() + ": cannot make this folder; name another with --out");
-}
-
-}  // namespace
-
 int run(const RunOptions& options) {
   if (!options.out.empty()) {
-    refuse_same_stem(options.meshes);
-    make_folder(options.out);
+    refuse_same_stem(options.meshes, "--out");
+    make_folder(options.out, "--out");
   }
-  Session session(options);
+  PipelineSession session(options);
   const Model model = read_model(find_resource("models", options.model), &session.host().catalog());
   const Stations stations = session.stations(model);
 
   return for_each_mesh(options.meshes, session, [&](const fs::path& path) {
     const auto start = std::chrono::steady_clock::now();
-    const Mesh mesh = read_mesh(path);
+    const RepairedMesh input = session.read(path);
     const double read_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    const Analysis analysis = analyze(mesh, model, stations, {}, session.context());
+    const Analysis analysis = analyze(input.mesh, model, stations, {}, session.context());
     Result result = explain(analysis, model, path.string(), stations, session.context());
+    result.repair = input.repair;
     result.timings.insert(result.timings.begin(), {"read", read_ms});
     if (!options.out.empty()) {
       const fs::path folder = options.out / path.stem();
-      make_folder(folder);
-      write_labels(folder / "labels.ply", mesh, result);
+      make_folder(folder, "--out");
+      write_labels(folder / "labels.ply", input.mesh, result);
       write_file(folder / "result.json", to_json(result));
     }
     session.status("");

@@ -11,6 +11,7 @@
 
 #include "base/errors.h"
 #include "resources.h"
+#include "result/repair_words.h"
 
 namespace toposcope::cli {
 namespace {
@@ -54,7 +55,6 @@ PluginCatalog open_catalog(const std::vector<fs::path>& plugin_dirs, bool warn) 
 
 Session::Session(const CommonOptions& options)
     : host_(open_catalog(options.plugin_dirs, !options.quiet)),
-      pipeline_(open_pipeline(options, host_.catalog())),
       terminal_(isatty(STDERR_FILENO) == 1 && !options.quiet) {
   auto logger = std::make_shared<spdlog::logger>("toposcope", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
   logger->set_pattern("toposcope: %^%l%$: %v");
@@ -79,12 +79,25 @@ Session::~Session() {
   interruptible = nullptr;
 }
 
+RepairedMesh Session::read(const fs::path& mesh) {
+  RepairedMesh input = read_repaired_mesh(mesh, context_.get());
+  if (input.repair.notable()) {
+    status("");
+    context_->log(LogLevel::warning, mesh.string() + ": repaired: " + repair_in_words(input.repair));
+    status(mesh.string());
+  }
+  return input;
+}
+
 void Session::status(const std::string& text) {
   status_ = text;
   if (!terminal_) return;
   fmt::print(stderr, "\r\033[K{}", text);
   std::fflush(stderr);
 }
+
+PipelineSession::PipelineSession(const CommonOptions& options)
+    : Session(options), pipeline_(open_pipeline(options, host().catalog())) {}
 
 int for_each_mesh(const std::vector<fs::path>& meshes, Session& session,
                   const std::function<void(const fs::path&)>& body) {

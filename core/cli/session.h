@@ -6,6 +6,7 @@
 
 #include "base/run_context.h"
 #include "commands.h"
+#include "io/mesh_io.h"
 #include "model/model.h"
 #include "pipeline/pipeline_manifest.h"
 #include "pipeline/stations.h"
@@ -13,7 +14,7 @@
 
 namespace toposcope::cli {
 
-/// What the commands that work on meshes share: plugins, pipeline, log, progress, Ctrl-C.
+/// What the commands that work on meshes share: plugins, log, progress, Ctrl-C.
 class Session {
  public:
   explicit Session(const CommonOptions& options);
@@ -21,17 +22,28 @@ class Session {
 
   PluginHost& host() { return host_; }
   RunContext& context() { return *context_; }
-  Stations stations(const Model& model) { return make_stations(host_, pipeline_, model); }
+
+  /// Reads and repairs; a warning where more was done than a user would expect.
+  RepairedMesh read(const fs::path& mesh);
 
   /// One line on the terminal, replaced by the next; nothing in a pipe. Empty clears it.
   void status(const std::string& text);
 
  private:
   PluginHost host_;
-  PipelineManifest pipeline_;
   bool terminal_;
   std::string status_;
   std::unique_ptr<RunContext> context_;
+};
+
+/// And a pipeline.
+class PipelineSession : public Session {
+ public:
+  explicit PipelineSession(const CommonOptions& options);
+  Stations stations(const Model& model) { return make_stations(host(), pipeline_, model); }
+
+ private:
+  PipelineManifest pipeline_;
 };
 
 /// The plugins that can be found; a warning on stderr about each that cannot be used.

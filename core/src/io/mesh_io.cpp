@@ -49,4 +49,13 @@ Mesh read_mesh(const std::filesystem::path& path, Context* context) {
   return Mesh(read_soup(path), path.string(), context);
 }
 
+RepairedMesh repaired_mesh(TriangleSoup soup, const std::string& name, Context* context) {
+  const RepairReport report = repair(soup, name);
+  return {Mesh(std::move(soup), name, context), report};
+}
+
+RepairedMesh read_repaired_mesh(const std::filesystem::path& path, Context* context) {
+  return repaired_mesh(read_soup(path), path.string(), context);
+}
+
 }  // namespace toposcope

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "mesh/mesh.h"
+#include "mesh/repair.h"
 
 namespace toposcope {
 
@@ -23,12 +24,28 @@ TriangleSoup read_soup(std::string_view bytes, const std::filesystem::path& path
 /// Reads and checks.
 Mesh read_mesh(const std::filesystem::path& path, Context* context = nullptr);
 
+/// A mesh that was made fit for the path, and what had to be done.
+struct RepairedMesh {
+  Mesh mesh;  ///< its face origins are faces of the file
+  RepairReport repair;
+};
+
+/// Reads, repairs and checks.
+RepairedMesh read_repaired_mesh(const std::filesystem::path& path, Context* context = nullptr);
+
+/// \param name  for messages
+RepairedMesh repaired_mesh(TriangleSoup soup, const std::string& name, Context* context = nullptr);
+
 using Rgb = std::array<std::uint8_t, 3>;
 
 struct FaceAttributes {
   std::span<const Rgb> colors;           ///< one per triangle, or empty
   std::span<const std::int32_t> labels;  ///< one per triangle, or empty
+  std::span<const Index> input_faces;    ///< one per triangle, or empty: the face of the input that it came from
 };
+
+/// Whether the extension is one that write_mesh knows.
+bool can_write_mesh(const std::filesystem::path& path);
 
 /// Writes by extension: .ply (binary little-endian, with face attributes), .obj, .stl (binary), .off. The file appears
 /// whole or not at all.

@@ -43,8 +43,9 @@ std::string ply(std::span<const Vec3> positions, std::span<const Triangle> trian
                     std::to_string(triangles.size()) + "\nproperty list uchar int vertex_indices\n";
   if (!attributes.colors.empty()) out += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   if (!attributes.labels.empty()) out += "property int label\n";
+  if (!attributes.input_faces.empty()) out += "property int input_face\n";
   out += "end_header\n";
-  out.reserve(out.size() + 24 * positions.size() + 20 * triangles.size());
+  out.reserve(out.size() + 24 * positions.size() + 24 * triangles.size());
   for (const Vec3& p : positions)
     for (double coordinate : p) append_little_endian(out, coordinate);
   for (std::size_t f = 0; f < triangles.size(); ++f) {
@@ -53,6 +54,7 @@ std::string ply(std::span<const Vec3> positions, std::span<const Triangle> trian
     if (!attributes.colors.empty())
       for (std::uint8_t channel : attributes.colors[f]) out += static_cast<char>(channel);
     if (!attributes.labels.empty()) append_little_endian(out, attributes.labels[f]);
+    if (!attributes.input_faces.empty()) append_little_endian(out, attributes.input_faces[f]);
   }
   return out;
 }
@@ -111,9 +113,9 @@ std::string stl(std::span<const Vec3> positions, std::span<const Triangle> trian
 void check(const std::string& name, std::span<const Vec3> positions, std::span<const Triangle> triangles,
            const FaceAttributes& attributes) {
   const auto fits = [&](std::size_t count) { return count == 0 || count == triangles.size(); };
-  if (!fits(attributes.colors.size()) || !fits(attributes.labels.size()))
-    throw MeshError(name + ": colours and labels must be one for each of the " + std::to_string(triangles.size()) +
-                    " triangles, or none");
+  if (!fits(attributes.colors.size()) || !fits(attributes.labels.size()) || !fits(attributes.input_faces.size()))
+    throw MeshError(name + ": colours, labels and input faces must be one for each of the " +
+                    std::to_string(triangles.size()) + " triangles, or none");
   for (const Triangle& t : triangles)
     for (Index v : t)
       if (v >= positions.size())
@@ -122,6 +124,11 @@ void check(const std::string& name, std::span<const Vec3> positions, std::span<c
 }
 
 }  // namespace
+
+bool can_write_mesh(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".ply" || extension == ".obj" || extension == ".stl" || extension == ".off";
+}
 
 void write_mesh(const std::filesystem::path& path, std::span<const Vec3> positions, std::span<const Triangle> triangles,
                 const FaceAttributes& attributes) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "base/errors.h"
 #include "pipeline/labeling_problem.h"
@@ -26,42 +25,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-class SoupSink final : public MeshSink {
- public:
-  void set(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-           std::span<const Index> origin) override {
-    result.emplace();
-    result->positions.assign(positions.begin(), positions.end());
-    result->triangles.assign(triangles.begin(), triangles.end());
-    result->face_origin.assign(origin.begin(), origin.end());
-  }
-  std::optional<TriangleSoup> result;
-};
-
-PreparedMesh filter(const Mesh& mesh, const Stations& stations, Context& context) {
-  PreparedMesh prepared;
-  prepared.input = &mesh;
-  prepared.origin.resize(mesh.view().face_count());
-  std::iota(prepared.origin.begin(), prepared.origin.end(), 0);
-  for (const Stations::Filter& station : stations.filters) {
-    SoupSink sink;
-    const Index faces = prepared.view().face_count();
-    guard(station.id, [&] { station.plugin->apply(prepared.view(), context, sink); });
-    if (!sink.result) continue;
-    TriangleSoup& soup = *sink.result;
-    if (soup.face_origin.size() != soup.triangles.size() ||
-        std::any_of(soup.face_origin.begin(), soup.face_origin.end(), [&](Index f) { return f >= faces; }))
-      throw PluginError(station.id, "gave a mesh whose faces do not say which input face they come from");
-    soup.input_faces = faces;
-    Mesh next(std::move(soup), "the mesh made by filter '" + station.id + "'");
-    std::vector<Index> origin;
-    for (Index f : next.face_origin()) origin.push_back(prepared.origin[f]);
-    prepared.origin = std::move(origin);
-    prepared.filtered = std::move(next);
-  }
-  return prepared;
-}
 
 /// Values of each variable that stay: those nearer to the variable's own label than to the labels of the features
 /// that it could be exchanged with. So an airplane's port wing has one side, and not half a probability on each.
@@ -131,7 +94,7 @@ Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations,
   Stopwatch watch;
   const auto lap = [&](const char* station) { analysis.timings.emplace_back(station, watch.lap_ms()); };
 
-  analysis.mesh = filter(mesh, stations, context);
+  analysis.mesh = apply_filters(mesh, stations.filters, context);
   lap("filter");
   const MeshView& view = analysis.mesh.view();
   analysis.sets = guard(stations.worksets_id, [&] {

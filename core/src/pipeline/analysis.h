@@ -2,25 +2,16 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "mesh/mesh.h"
 #include "pipeline/constructed_features.h"
+#include "pipeline/filters.h"
 
 namespace toposcope {
 
 /// Milliseconds per station, in the order of the path.
 using Timings = std::vector<std::pair<std::string, double>>;
-
-/// A mesh after the filters, and where its faces come from.
-struct PreparedMesh {
-  const Mesh* input = nullptr;
-  std::optional<Mesh> filtered;  ///< absent when no filter changed anything
-  std::vector<Index> origin;     ///< per face of the filtered mesh, the triangle of the input
-  const MeshView& view() const { return filtered ? filtered->view() : input->view(); }
-};
 
 /// The labelling of a model, or of one of its classes.
 struct ClassOutcome {

@@ -9,13 +9,6 @@
 namespace toposcope {
 namespace {
 
-PluginUse use_of(const PluginManifest& manifest, const std::vector<OptionValue>& options) {
-  PluginUse use{std::string(to_string(manifest.kind)), manifest.id, manifest.version, {}};
-  for (std::size_t i = 0; i < options.size(); ++i)
-    use.options.emplace_back(options[i].name, to_string(manifest.options[i], options[i]));
-  return use;
-}
-
 /// Defaults of the arguments that have one; the model gives the others.
 std::vector<OptionValue> argument_defaults(const PluginManifest& manifest, const std::string& owner) {
   std::vector<OptionValue> values;
@@ -26,6 +19,13 @@ std::vector<OptionValue> argument_defaults(const PluginManifest& manifest, const
 }
 
 }  // namespace
+
+PluginUse use_of(const PluginManifest& manifest, const std::vector<OptionValue>& options) {
+  PluginUse use{std::string(to_string(manifest.kind)), manifest.id, manifest.version, {}};
+  for (std::size_t i = 0; i < options.size(); ++i)
+    use.options.emplace_back(options[i].name, to_string(manifest.options[i], options[i]));
+  return use;
+}
 
 Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const Model& model) {
   const PluginCatalog& catalog = host.catalog();

@@ -18,6 +18,7 @@ namespace toposcope {
 
 class PluginHost;
 struct PipelineManifest;
+struct PluginManifest;
 
 /// A plugin at work in a run, as result.json reports it.
 struct PluginUse {
@@ -51,6 +52,9 @@ struct Stations {
 
   std::vector<PluginUse> uses;
 };
+
+/// \param options  checked
+PluginUse use_of(const PluginManifest& manifest, const std::vector<OptionValue>& options);
 
 /// Loads what pipeline and model need. \throw PluginError, UsageError
 Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const Model& model);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "result/classification.h"
+#include "result/repair_words.h"
 #include "result/result.h"
 
 namespace toposcope {
@@ -134,7 +135,13 @@ Json document(const Result& result) {
                   {"vertices", result.vertices},
                   {"faces", result.faces},
                   {"box", {{"a", result.box.a()}, {"b", result.box.b()}, {"c", result.box.c()}}},
-                  {"mean_edge", result.mean_edge}};
+                  {"mean_edge", result.mean_edge},
+                  {"components", result.repair.components},
+                  {"closed_components", result.repair.closed_components},
+                  {"holes", result.repair.holes},
+                  {"euler", result.repair.euler},
+                  {"genus", result.repair.genus}};
+  for (const RepairCount& each : repair_counts(result.repair)) root["mesh"]["repair"][each.name] = each.count;
   root["model"] = result.model;
   root["status"] = result.status;
   root["class"] = result.class_name.empty() ? Json(nullptr) : Json(result.class_name);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/repair.h"
 #include "pipeline/analysis.h"
 
 namespace toposcope {
@@ -63,6 +64,7 @@ struct Result {
   Index vertices = 0, faces = 0;
   Box box;
   double mean_edge = 0;
+  RepairReport repair;  ///< of the file, before all else
   std::string model;
   std::string status;      ///< labelled, partial, none
   std::string class_name;  ///< for a model with class rules: the best; empty when none fits
@@ -91,7 +93,8 @@ std::string to_json_line(const Result& result);
 /// The table that `run` prints.
 std::string to_text(const Result& result);
 
-/// labels.ply: the input mesh with one label (0 none, 1 + feature index) and colour per triangle.
+/// labels.ply: the input mesh (repaired) with, for each triangle, a label (0 none, 1 + feature index), a colour and the
+/// face of the file that it came from.
 void write_labels(const std::filesystem::path& path, const Mesh& input, const Result& result);
 
 }  // namespace toposcope

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/mesh_io.h"
+#include "result/repair_words.h"
 #include "result/result.h"
 
 namespace toposcope {
@@ -34,8 +35,10 @@ std::string to_text(const Result& result) {
   std::string text = fmt::format("{}: model '{}', {}", result.mesh_path, result.model, result.status);
   for (const ClassReport& each : result.classes)
     if (each.name == result.class_name) text += fmt::format(", class {} ({:.3f})", each.name, each.probability);
-  text += fmt::format("\n  {} vertices, {} faces, box {:.4g} x {:.4g} x {:.4g}, mean edge {:.3g}\n\n", result.vertices,
+  text += fmt::format("\n  {} vertices, {} faces, box {:.4g} x {:.4g} x {:.4g}, mean edge {:.3g}\n", result.vertices,
                       result.faces, result.box.a(), result.box.b(), result.box.c(), result.mean_edge);
+  if (result.repair.notable()) text += fmt::format("  repaired: {}\n", repair_in_words(result.repair));
+  text += "\n";
   text += fmt::format("  {:<14}{:<9}{:<6}  {:<11}{:<44} {:>9} {:>6}\n", "feature", "", "prob.", "shape", "measured",
                       "fit error", "faces");
   for (const FeatureReport& report : result.features) {
@@ -74,7 +77,7 @@ void write_labels(const std::filesystem::path& path, const Mesh& input, const Re
       colors[t] = palette[f % std::size(palette)];
       labels[t] = static_cast<std::int32_t>(f + 1);
     }
-  write_mesh(path, view.positions, view.triangles, {colors, labels});
+  write_mesh(path, view.positions, view.triangles, {colors, labels, input.face_origin()});
 }
 
 }  // namespace toposcope

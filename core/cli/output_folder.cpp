@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "output_folder.h"
+
+#include <set>
+
+#include "base/errors.h"
+
+namespace toposcope::cli {
+namespace fs = std::filesystem;
+
+void refuse_same_stem(const std::vector<fs::path>& meshes, const std::string& option) {
+  std::set<std::string> stems;
+  for (const fs::path& mesh : meshes)
+    if (!stems.insert(mesh.stem().string()).second)
+      throw UsageError("two meshes are named '" + mesh.stem().string() +
+                       "': their results would have the same name below " + option + "; run them apart");
+}
+
+void make_folder(const fs::path& folder, const std::string& option) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder))
+    throw UsageError(folder.string() + ": cannot make this folder; name another with " + option);
+}
+
+}  // namespace toposcope::cli

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/filters.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "plugin/guard.h"
+
+namespace toposcope {
+namespace {
+
+class SoupSink final : public MeshSink {
+ public:
+  void set(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+           std::span<const Index> origin) override {
+    result.emplace();
+    result->positions.assign(positions.begin(), positions.end());
+    result->triangles.assign(triangles.begin(), triangles.end());
+    result->face_origin.assign(origin.begin(), origin.end());
+  }
+  std::optional<TriangleSoup> result;
+};
+
+}  // namespace
+
+PreparedMesh apply_filters(const Mesh& mesh, std::span<const Stations::Filter> filters, Context& context) {
+  PreparedMesh prepared;
+  prepared.input = &mesh;
+  prepared.origin.resize(mesh.view().face_count());
+  std::iota(prepared.origin.begin(), prepared.origin.end(), 0);
+  for (const Stations::Filter& station : filters) {
+    SoupSink sink;
+    const Index faces = prepared.view().face_count();
+    guard(station.id, [&] { station.plugin->apply(prepared.view(), context, sink); });
+    if (!sink.result) continue;
+    TriangleSoup& soup = *sink.result;
+    if (soup.face_origin.size() != soup.triangles.size() ||
+        std::any_of(soup.face_origin.begin(), soup.face_origin.end(), [&](Index f) { return f >= faces; }))
+      throw PluginError(station.id, "gave a mesh whose faces do not say which input face they come from");
+    soup.input_faces = faces;
+    Mesh next(std::move(soup), "the mesh made by filter '" + station.id + "'", &context);
+    std::vector<Index> origin;
+    origin.reserve(next.face_origin().size());
+    for (Index f : next.face_origin()) origin.push_back(prepared.origin[f]);
+    prepared.origin = std::move(origin);
+    prepared.filtered = std::move(next);
+  }
+  return prepared;
+}
+
+}  // namespace toposcope
