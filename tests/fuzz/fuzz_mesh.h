@@ -4,16 +4,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "base/errors.h"
 #include "io/mesh_io.h"
+#include "mesh/repair.h"
 
 namespace toposcope::fuzz {
 
-/// What the program does with a file: read, check, build adjacency. Anything but a mesh or a MeshError is a finding.
+/// What the program does with a file: read, repair, check, build adjacency. Anything but a mesh or a MeshError is a
+/// finding.
 inline int read_as(const char* name, const std::uint8_t* data, std::size_t size) {
   try {
-    const Mesh mesh(read_soup(std::string_view(reinterpret_cast<const char*>(data), size), name), name);
+    TriangleSoup soup = read_soup(std::string_view(reinterpret_cast<const char*>(data), size), name);
+    repair(soup, name);
+    const Mesh mesh(std::move(soup), name);
   } catch (const MeshError&) {
   }
   return 0;
