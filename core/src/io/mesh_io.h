@@ -39,9 +39,9 @@ RepairedMesh repaired_mesh(TriangleSoup soup, const std::string& name, Context* 
 using Rgb = std::array<std::uint8_t, 3>;
 
 struct FaceAttributes {
-  std::span<const Rgb> colors;           ///< one per triangle, or empty
-  std::span<const std::int32_t> labels;  ///< one per triangle, or empty
-  std::span<const Index> input_faces;    ///< one per triangle, or empty: the face of the input that it came from
+  std::span<const Rgb> colors = {};           ///< one per triangle, or empty
+  std::span<const std::int32_t> labels = {};  ///< one per triangle, or empty
+  std::span<const Index> input_faces = {};    ///< one per triangle, or empty: the face of the input that it came from
 };
 
 /// Whether the extension is one that write_mesh knows.
