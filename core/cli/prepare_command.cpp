@@ -118,7 +118,7 @@ class Preparer {
     const fs::path target = target_of(options_, path);
     if (session_.context().cancelled() || target.empty()) return done;
     write_mesh(target, made.mesh.view().positions, made.mesh.view().triangles,
-               {.colors = {}, .labels = {}, .input_faces = made.mesh.face_origin()});
+               {.input_faces = made.mesh.face_origin()});
     done.written = target.string();
     return done;
   }
