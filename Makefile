@@ -33,7 +33,7 @@ test: all
 FUZZ_SECONDS ?= 600
 # Findings are left in build/fuzz/findings; the fuzzer says how to repeat one.
 fuzz: deps
-	@./scripts/install-deps clang-14
+	@./scripts/install-deps clang-14 libclang-rt-14-dev
 	@mkdir -p build
 	@cmake --preset fuzz > build/fuzz.log 2>&1 || { cat build/fuzz.log; exit 1; }
 	cmake --build build/fuzz -j $(JOBS) --target fuzz

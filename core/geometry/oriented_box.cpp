@@ -79,6 +79,7 @@ Axes search_axes(const BlockedPoints& blocked, const Vec3& half_extents) {
   const bool whole = points.size() <= few_points || (points.size() <= most_points && extremes.size() <= most_extremes);
   FrameSearch search(whole ? points : std::span<const Vec3>(extremes), half_extents);
   if (search.corners().size() > most_corners && !extremes.empty()) search = FrameSearch(extremes, half_extents);
+  if (search.corners().empty()) return unit_axes;  // flat to rounding, though its thickness is not nothing
   Candidate best = best_frame(search);
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Vec3> grown(search.corners().begin(), search.corners().end());
@@ -95,7 +96,9 @@ Axes search_axes(const BlockedPoints& blocked, const Vec3& half_extents) {
       for (int j = 0; j < 3; ++j)
         if (i != j)
           for (double t : {-tilt, tilt}) look_along((best.axes[i] + t * best.axes[j]).normalized());
-    search = FrameSearch(grown, half_extents);
+    FrameSearch next(grown, half_extents);
+    if (next.corners().empty()) break;
+    search = std::move(next);
     best = search.descend({best.axes, search.volume(best.axes)});
     if (round == 0) best = search.polish(best, largest_tilt / 4, smallest_tilt);
   }

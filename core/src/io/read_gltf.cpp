@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Geometry>
 #include <array>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -138,12 +137,13 @@ class SceneReader {
     spend(corners, primitive);
 
     const bool mirrored = transform.leftCols<3>().determinant() < 0;  // outside stays outside
-    const auto vertex = [&](std::size_t corner) {
-      const double index = listed.empty() ? static_cast<double>(corner) : listed[corner];
-      if (!(index >= 0) || index >= static_cast<double>(count) || index != std::floor(index))
+    for (double index : listed)
+      if (!(index >= 0 && index < static_cast<double>(count)) ||
+          index != static_cast<double>(static_cast<std::size_t>(index)))
         primitive.fail("refers to vertex " + std::to_string(index) + " but has " + std::to_string(count) +
                        "; the indices are damaged");
-      return static_cast<std::int64_t>(first + static_cast<std::size_t>(index));
+    const auto vertex = [&](std::size_t corner) {
+      return static_cast<std::int64_t>(first + (listed.empty() ? corner : static_cast<std::size_t>(listed[corner])));
     };
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
       std::array<std::int64_t, 3> face = {vertex(a), vertex(b), vertex(c)};

@@ -43,10 +43,10 @@ Keyword keyword(TextCursor& text) {
   return {next, prefix, next == "BINARY"};
 }
 
-/// Big-endian numbers of 32 bits.
+/// Numbers of 32 bits.
 class BinaryNumbers {
  public:
-  BinaryNumbers(const FileText& file, std::size_t begin) : file_(file), at_(begin) {}
+  BinaryNumbers(const FileText& file, std::size_t begin, std::endian order) : file_(file), at_(begin), order_(order) {}
   MeshFilePlace place() const { return {at_, MeshFilePlace::Unit::byte}; }
   float real() { return std::bit_cast<float>(word()); }
   std::int32_t integer() { return std::bit_cast<std::int32_t>(word()); }
@@ -66,21 +66,35 @@ class BinaryNumbers {
  private:
   std::uint32_t word() {
     if (file_.bytes.size() - at_ < 4) fail_at(file_.name, place(), "the file ends within its data; it is cut short");
+    const char* bytes = file_.bytes.data() + at_;
+    at_ += 4;
     std::uint32_t value = 0;
-    for (int i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(file_.bytes[at_++]);
+    for (int i = 0; i < 4; ++i)
+      value = value << 8 | static_cast<unsigned char>(bytes[order_ == std::endian::big ? i : 3 - i]);
     return value;
   }
 
   const FileText& file_;
   std::size_t at_;
+  std::endian order_;
 };
 
+/// Whether the counts of vertices and faces, in this order of bytes, are such as the file could hold.
+bool counts_fit(const FileText& file, std::size_t begin, std::endian order) {
+  BinaryNumbers numbers(file, begin, order);
+  const double vertices = numbers.integer(), faces = numbers.integer();
+  return vertices >= 0 && faces >= 0 && 12 * vertices + 4 * faces <= static_cast<double>(file.bytes.size());
+}
+
+/// Big-endian, as Geomview defines it; or little-endian and without colours, as pmp-library writes it.
 TriangleSoup read_binary(const FileText& file, std::size_t begin, std::string_view prefix) {
   const auto has = [&](char c) { return prefix.find(c) != prefix.npos; };
   const std::size_t more = (has('N') ? 3U : 0U) + (has('C') ? 4U : 0U) + (has('S') ? 2U : 0U);
-  BinaryNumbers numbers(file, begin);
+  const bool little = file.bytes.size() - begin >= 8 && !counts_fit(file, begin, std::endian::big) &&
+                      counts_fit(file, begin, std::endian::little);
+  BinaryNumbers numbers(file, begin, little ? std::endian::little : std::endian::big);
   const std::size_t vertices = numbers.count("the number of vertices", 3 + more);
-  const std::size_t faces = numbers.count("the number of faces", 2);
+  const std::size_t faces = numbers.count("the number of faces", 1);
   numbers.skip(1);  // edges
   SoupBuilder builder(file.name);
   builder.reserve(vertices, faces);
@@ -97,7 +111,7 @@ TriangleSoup read_binary(const FileText& file, std::size_t begin, std::string_vi
     corners.resize(numbers.count("the number of corners of a face", 1));
     for (std::int64_t& corner : corners) corner = numbers.integer();
     builder.add_face(corners, place);
-    numbers.skip(numbers.count("the number of colour components", 1));
+    if (!little) numbers.skip(numbers.count("the number of colour components", 1));
   }
   return builder.finish();
 }

@@ -190,5 +190,23 @@ TEST(OrientedBox, IsTheSameOnEveryRun) {
   EXPECT_EQ(first.center, second.center);
 }
 
+/// Found by fuzzing: three points span a plane, but rounding gave them a thickness.
+TEST(OrientedBox, ThreePointsOfVeryUnequalDistancesAreFlat) {
+  for (const std::vector<Vec3>& points :
+       {std::vector<Vec3>{
+            {0, 0, 0}, {0, 0, 1}, {3.7297581911843736e-08, 9.3250607235972893e-09, 8.6245917664075538e-33}},
+        {{4.1578954386741888e+21, 38882762555392, 3397.141845703125},
+         {1.5003184815576021e-19, 5.4272936229725068e-31, 4.544945134045912e+30},
+         {2.1039985115139816e-19, 5.2278288877674983e+22, 2.5193109820520476e-09}},
+        {{5, 0, 1}, {1, 1, 0}, {0, 1, 77777550.5}}}) {
+    const Box box = oriented_box(points);
+    double longest = 0;
+    for (const Vec3& p : points)
+      for (const Vec3& q : points) longest = std::max(longest, (p - q).norm());
+    EXPECT_NEAR(box.a(), longest, 1e-6 * longest);
+    EXPECT_LT(box.c(), 1e-8 * longest);
+  }
+}
+
 }  // namespace
 }  // namespace toposcope

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <clocale>
 #include <locale>
 
-#include "core/io/mesh_files.h"
+#include "core/io/gltf_files.h"
 #include "support/meshes.h"
 
 namespace toposcope {
@@ -120,6 +121,34 @@ TEST(ReadMesh, TheLocalePlaysNoRole) {
     EXPECT_EQ(read_soup(folder.path() / name).positions, soup.positions) << name;
   }
   std::locale::global(before);
+}
+
+/// What the C library does, which a library may ask.
+TEST(ReadMesh, AnInstalledCommaLocalePlaysNoRole) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  bool found = false;
+  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE.utf8", "de_DE", "nl_NL.UTF-8", "pt_BR.UTF-8"})
+    found = found || (std::setlocale(LC_ALL, name) && *std::localeconv()->decimal_point == ',');
+  if (!found) GTEST_SKIP() << "no locale with a decimal comma is installed (locale-gen de_DE.UTF-8)";
+  const Vec3 expected(1.5, -0.25, 1e-3);
+  const std::string v = "1.5 -0.25 1e-3\n", all = v + "1 0 0\n0 1 0\n";
+  EXPECT_EQ(test::read_text("v " + v + "v 1 0 0\nv 0 1 0\nf 1 2 3\n", ".obj").positions[0], expected);
+  EXPECT_EQ(test::read_text("OFF 3 1 0\n" + all + "3 0 1 2\n", ".off").positions[0], expected);
+  EXPECT_EQ(
+      test::read_text("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+                      "z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n" +
+                          all + "3 0 1 2\n",
+                      ".ply")
+          .positions[0],
+      expected);
+  EXPECT_EQ(test::read_text("solid\nfacet\nouter loop\nvertex " + v + "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n",
+                            ".stl")
+                .positions[0],
+            expected);
+  test::GltfFile gltf = test::square_gltf();
+  gltf.scene({{{"mesh", 0}, {"translation", {1.5, -0.25, 1e-3}}}}, {0});
+  EXPECT_EQ(test::read_text(gltf.glb(), ".glb").positions[0], expected);
+  std::setlocale(LC_ALL, before.c_str());
 }
 
 /// Files gathered from the issue trackers of other mesh programs: each is read or refused, never worse.

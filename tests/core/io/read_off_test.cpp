@@ -42,6 +42,12 @@ TEST(ReadOff, Binary) {
   expect_square(read_text(file("OFF BINARY\n", 0), ".off"));
   expect_square(read_text(file("# comment\nCOFF BINARY \r\n", 4), ".off"));
   expect_square(read_text(file("STCNOFF BINARY\n", 9), ".txt"));
+  std::string little = "OFF BINARY\n";  // without colours: pmp-library
+  for (std::int32_t count : {4, 1, 0}) little += test::bytes(count);
+  for (float coordinate : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 1.F, 1.F, 0.F, 0.F, 1.F, 0.F})
+    little += test::bytes(coordinate);
+  for (std::int32_t corner : {4, 0, 1, 2, 3}) little += test::bytes(corner);
+  expect_square(read_text(little, ".off"));
   const std::string whole = file("NOFF BINARY\n", 3);
   for (std::size_t size = 0; size < whole.size() - 8; ++size)
     EXPECT_NE(refusal(whole.substr(0, size), ".off"), "") << size << " bytes";
