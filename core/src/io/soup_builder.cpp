@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "base/errors.h"
-#include "toposcope/large_array.h"
 #include "io/cut_polygons.h"
+#include "toposcope/large_array.h"
 
 namespace toposcope {
 namespace {

@@ -36,7 +36,6 @@ Fans separate_fans(std::size_t vertices, std::span<const Triangle> original, con
     if (vertex == Gluing::none) {
       vertex = static_cast<Index>(fans.source.size());
       fans.source.push_back(corner(first));
-      ++fans.split_vertices;
     } else {
       taken[vertex] = true;
     }

@@ -16,7 +16,6 @@ inline Index next_around(const Gluing& gluing, Index side) {
 struct Fans {
   std::vector<Index> vertex;  ///< of each corner 3 f + k
   std::vector<Index> source;  ///< of each vertex, the original one that it has the position of
-  Index split_vertices = 0;   ///< vertices more than places, where no original vertex was left for them
 };
 
 /// Gives each fan of faces around a place a vertex of its own: the least original one of its corners that no other fan

@@ -67,7 +67,9 @@ class Edge {
   /// A face that runs up the edge has its material behind it, seen counter-clockwise, one that runs down before it: a
   /// face that runs down and the next one that runs up bound the same material, as brackets do.
   void join_by_angle() {
-    const Index low = std::min(start(rest_[0]), end(rest_[0])), high = std::max(start(rest_[0]), end(rest_[0]));
+    // Up by position, so that the order of the vertices does not matter.
+    Index low = start(rest_[0]), high = end(rest_[0]);
+    if (std::ranges::lexicographical_compare(positions_[high], positions_[low])) std::swap(low, high);
     const Vec3 axis = (positions_[high] - positions_[low]).stableNormalized();
     const Vec3 u = any_perpendicular(axis), v = axis.cross(u);
     around_.clear();

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <utility>
 
 #include "base/errors.h"
@@ -67,18 +68,14 @@ std::vector<bool> find_duplicates(std::span<const Triangle> welded, std::size_t 
 /// lie at one place
 std::vector<Triangle> clean(TriangleSoup& soup, std::span<const Index> first, const std::string& name,
                             RepairReport& report) {
-  std::vector<bool> finite(soup.positions.size()), referenced(soup.positions.size(), false);
-  for (std::size_t v = 0; v < finite.size(); ++v) finite[v] = soup.positions[v].allFinite();
+  std::vector<bool> finite(soup.positions.size());
+  for (std::size_t v = 0; v < finite.size(); ++v) {
+    finite[v] = soup.positions[v].allFinite();
+    report.non_finite_vertices += !finite[v];
+  }
   std::vector<Triangle> welded;
   reserve_large(welded, soup.triangles.size());
-  for (const Triangle& t : soup.triangles) {
-    for (Index v : t) referenced[v] = true;
-    welded.push_back({first[t[0]], first[t[1]], first[t[2]]});
-  }
-  for (std::size_t v = 0; v < finite.size(); ++v) {
-    report.non_finite_vertices += !finite[v];
-    report.unreferenced_vertices += finite[v] && !referenced[v] && first[v] == v;
-  }
+  for (const Triangle& t : soup.triangles) welded.push_back({first[t[0]], first[t[1]], first[t[2]]});
   const auto input_faces = static_cast<double>(soup.triangles.size());
   if (report.non_finite_vertices > 0)
     report.non_finite_faces = drop_faces(soup, welded, [&](Index f) {
@@ -122,6 +119,22 @@ Index isolate_faces(TriangleSoup& soup, const Fans& fans, Gluing& gluing) {
     }
   }
   return isolated;
+}
+
+/// Compares the vertices that the faces have at each place with those that they need, place by place: which of them a
+/// fan takes depends on the order of the vertices, how many are over or short does not.
+void count_places(const TriangleSoup& soup, std::span<const Index> first, const Fans& fans, RepairReport& report) {
+  std::vector<std::int32_t> balance = large_array<std::int32_t>(first.size());
+  std::vector<bool> seen(fans.source.size(), false);
+  const auto count = [&](Index vertex, Index place, int amount) {
+    if (!seen[vertex]) balance[place] += amount;
+    seen[vertex] = true;
+  };
+  for (const Triangle& t : soup.triangles)
+    for (Index v : t) count(v, first[v], 1);
+  seen.assign(seen.size(), false);
+  for (Index v : fans.vertex) count(v, first[fans.source[v]], -1);
+  for (const std::int32_t over : balance) (over > 0 ? report.merged_vertices : report.split_vertices) += std::abs(over);
 }
 
 /// Gives the corners their fans' vertices.
@@ -197,16 +210,17 @@ RepairReport repair(TriangleSoup& soup, const std::string& name) {
       report.isolated_faces += isolated;
       fans = separate_fans(soup.positions.size(), soup.triangles, gluing);
     }
-  report.split_vertices = fans.split_vertices;
-  std::vector<bool> kept(fans.source.size(), false);
-  for (Index v : fans.vertex) kept[v] = true;
-  for (std::size_t v = 0; v < first.size(); ++v) report.merged_vertices += first[v] != v && !kept[v];
+  count_places(soup, first, fans, report);
   renumber(soup, fans);
 
   const FlatFaces flat = remove_flat_faces(soup);
   report.degenerate_faces += flat.removed;
   report.flat_faces = flat.kept;
+  if (report.flat_faces == soup.triangles.size())
+    throw MeshError(name + ": no face has an area, the corners of each lie on a line; export the surface again");
   remove_unreferenced(soup);
+  report.unreferenced_vertices = static_cast<Index>(first.size()) + report.split_vertices - report.merged_vertices -
+                                 report.non_finite_vertices - static_cast<Index>(soup.positions.size());
   // What was split or flipped hangs together in another way now.
   if (report.split_edges + report.cut_edges + flat.removed > 0) {
     gluing = glue(soup.positions, soup.triangles, soup.triangles);

@@ -10,12 +10,12 @@ namespace toposcope {
 /// What was found in a mesh and done about it, in the order in which it is done (docs/prepare.md), and what the mesh
 /// is like afterwards.
 struct RepairReport {
-  Index merged_vertices = 0;        ///< at the place of another one
-  Index unreferenced_vertices = 0;  ///< removed: no face uses them
+  Index merged_vertices = 0;        ///< removed: at the place of another one
+  Index unreferenced_vertices = 0;  ///< removed: no face uses them, or none any more
   Index non_finite_vertices = 0;    ///< removed, with the faces that use them
   Index non_finite_faces = 0;       ///< removed: a corner is not finite
   Index degenerate_faces = 0;  ///< removed: a corner twice, or an area of zero that could be removed or flipped away
-  Index flat_faces = 0;        ///< of area zero, kept: removing them would open the surface
+  Index flat_faces = 0;        ///< of area zero, kept: removing them would open or change the surface
   Index duplicate_faces = 0;   ///< removed: of the same three corners as another one
   Index split_edges = 0;       ///< had more than two faces, or two that could not be joined
   Index isolated_faces = 0;    ///< taken out of their surroundings, where splitting edges was not enough
@@ -40,9 +40,10 @@ struct RepairReport {
 };
 
 /// Makes of any triangles a consistently oriented manifold with border, as much like the input as can be. A clean mesh
-/// stays as it is, index by index. Repairing twice changes nothing more, unless edges of more than two faces leave
-/// several ways to pair them. `face_origin` goes along. Near-linear time.
-/// \throw MeshError  nothing is left, or most faces have a corner that is not finite
+/// stays as it is, index by index; otherwise vertices in other order give the same mesh in other order. Repairing twice
+/// changes nothing more, unless edges of more than two faces leave several ways to pair them. `face_origin` goes along.
+/// Near-linear time. \throw MeshError  nothing is left, no face has an area, or most faces have a corner that is not
+/// finite
 RepairReport repair(TriangleSoup& soup, const std::string& name);
 
 }  // namespace toposcope
