@@ -140,7 +140,8 @@ class Neighbourhood {
 void fit_quadric(std::span<const Neighbour> points, const std::vector<Vec3>& normals, SixUnknowns& quadric,
                  Vec3& normal, ShapeOperator& fitted) {
   const Vec3 axis = normal;
-  const auto [u, v] = tangent_frame(axis);
+  const TangentFrame plane = tangent_frame(axis);
+  const Vec3 &u = plane.u, &v = plane.v;
   double squared_reach = 0;
   for (const Neighbour& q : points) squared_reach = std::max(squared_reach, q.offset.squaredNorm());
   if (squared_reach == 0) return;
@@ -271,7 +272,7 @@ void diffuse(const MeshView& mesh, ShapeOperators& operators, int passes, Contex
 
 int diffusion_passes(const MeshView& mesh, double deviation, int least) {
   constexpr double variance_per_pass = 0.43;  // 6/7 of half a squared edge: six neighbours and the vertex itself
-  constexpr double most = 12;
+  constexpr double most = 8;
   const double edges = deviation / mesh.mean_edge;
   return static_cast<int>(std::clamp(std::round(edges * edges / variance_per_pass), static_cast<double>(least), most));
 }
@@ -280,10 +281,10 @@ Curvature principal_curvatures(const ShapeOperators& operators) {
   Curvature curvature;
   reserve_large(curvature.maximum, operators.at.size());
   reserve_large(curvature.minimum, operators.at.size());
-  for (const auto& [mean, x, y] : operators.at) {
-    const double half = std::sqrt(x * x + y * y);
-    curvature.maximum.push_back(mean + half);
-    curvature.minimum.push_back(mean - half);
+  for (const ShapeOperator& at : operators.at) {
+    const PrincipalCurvatures principal = principal_curvatures(at);
+    curvature.maximum.push_back(principal.maximum);
+    curvature.minimum.push_back(principal.minimum);
   }
   return curvature;
 }

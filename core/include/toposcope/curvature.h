@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "toposcope/context.h"
@@ -53,11 +54,18 @@ ShapeOperators fit_shape_operators(const MeshView& mesh, Context& context);
 /// which the planes meet) into that of the vertex. Each pass adds about 0.43 squared edges of variance to the kernel.
 void diffuse(const MeshView& mesh, ShapeOperators& operators, int passes, Context& context);
 
-/// Passes that diffuse to a Gaussian of the given standard deviation (mesh unit), at least `least` and at most 12
-/// (about 2.3 edges: on finer meshes the kernel shrinks with the edges, and so does the noise).
+/// Passes that diffuse to a Gaussian of the given standard deviation (mesh unit), at least `least` and at most 8
+/// (about 1.9 edges: on finer meshes the kernel shrinks with the edges, and so does the noise).
 int diffusion_passes(const MeshView& mesh, double deviation, int least);
 
-/// Eigenvalues of the operators.
+/// Eigenvalues of an operator.
+struct PrincipalCurvatures {
+  double maximum, minimum;
+};
+inline PrincipalCurvatures principal_curvatures(const ShapeOperator& at) {
+  const double half = std::sqrt(at.deviator_x * at.deviator_x + at.deviator_y * at.deviator_y);
+  return {at.mean + half, at.mean - half};
+}
 Curvature principal_curvatures(const ShapeOperators& operators);
 
 /// \}

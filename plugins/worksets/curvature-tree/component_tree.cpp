@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <numeric>
 #include <tuple>
 
 #include "toposcope/large_array.h"
@@ -14,14 +16,23 @@ namespace {
 
 constexpr Index none = std::numeric_limits<Index>::max();
 
+/// What is remembered of each root between levels.
+struct Past {
+  Index size;          ///< at the end of the previous level in which it changed
+  std::int32_t level;  ///< of that level
+  Index offered_size;  ///< when last offered
+  Index offered;       ///< index of that offer, none if never
+};
+
 /// Union-find whose components are linked lists that only grow at their tail: the vertices of a component as it was at
 /// the end of an earlier level are for ever the first ones from its head.
 class Forest {
  public:
-  explicit Forest(Index count) : nodes_(toposcope::large_array<Node>(count)) {}
+  explicit Forest(Index count) : nodes_(std::make_unique_for_overwrite<Node[]>(count)), count_(count) {
+    toposcope::advise_huge_pages(nodes_.get(), count * sizeof(Node));
+  }
 
-  bool contains(Index v) const { return nodes_[v].parent != none; }
-  void insert(Index v) { nodes_[v] = {v, none, v, 1}; }
+  void insert(Index v) { nodes_[v] = {v, none, v, 1, {0, 0, 0, none}}; }
   Index find(Index v) {
     while (nodes_[v].parent != v) v = nodes_[v].parent = nodes_[nodes_[v].parent].parent;
     return v;
@@ -34,36 +45,40 @@ class Forest {
     nodes_[a].size += nodes_[b].size;
   }
   Index size(Index root) const { return nodes_[root].size; }
+  Past& past(Index root) { return nodes_[root].past; }
 
-  /// Appends the first `count` vertices from a head, ascending.
-  void append_first(Index head, Index count, std::vector<Index>& out) {
-    if (count < nodes_.size() / 64) {
-      const auto begin = static_cast<std::ptrdiff_t>(out.size());
-      for (Index v = head; count > 0; --count, v = nodes_[v].next) out.push_back(v);
-      std::sort(out.begin() + begin, out.end());
-      return;
+  /// Walks along a component's list; what is behind it need not be walked again for a later stage of the component.
+  class Walk {
+   public:
+    explicit Walk(const Forest& forest) : forest_(forest), marks_(forest.count_ / 64 + 1, 0) {}
+
+    /// The first `count` vertices from a head, ascending. Of calls with one head, in a row, each wants no fewer.
+    void first(Index head, Index count, Index* out) {
+      if (head != head_) {
+        std::fill(marks_.begin(), marks_.end(), 0);
+        head_ = next_ = head;
+        walked_ = 0;
+      }
+      for (; walked_ < count; ++walked_, next_ = forest_.nodes_[next_].next)
+        marks_[next_ / 64] |= std::uint64_t{1} << next_ % 64;
+      for (std::size_t word = 0; count > 0; ++word)
+        for (std::uint64_t bits = marks_[word]; bits != 0; bits &= bits - 1, --count)
+          *out++ = static_cast<Index>(64 * word + static_cast<std::size_t>(std::countr_zero(bits)));
     }
-    marks_.assign(nodes_.size() / 64 + 1, 0);  // many vertices: faster than sorting
-    for (Index v = head; count > 0; --count, v = nodes_[v].next) marks_[v / 64] |= std::uint64_t{1} << v % 64;
-    for (Index word = 0; word < marks_.size(); ++word)
-      for (std::uint64_t bits = marks_[word]; bits != 0; bits &= bits - 1)
-        out.push_back(64 * word + static_cast<Index>(std::countr_zero(bits)));
-  }
+
+   private:
+    const Forest& forest_;
+    std::vector<std::uint64_t> marks_;
+    Index head_ = none, next_ = none, walked_ = 0;
+  };
 
  private:
   struct Node {  // together: a visit touches one line of the cache
-    Index parent = none, next = none, tail = none, size = 0;
+    Index parent, next, tail, size;
+    Past past;
   };
-  std::vector<Node> nodes_;
-  std::vector<std::uint64_t> marks_;
-};
-
-/// What is remembered of each root between levels.
-struct Past {
-  Index size = 0;          ///< at the end of the previous level in which it changed
-  std::int32_t level = 0;  ///< of that level
-  Index offered_size = 0;  ///< when last offered
-  Index offered = none;    ///< index of that offer, none if never
+  std::unique_ptr<Node[]> nodes_;  ///< of a vertex when it has been inserted
+  Index count_;
 };
 
 /// A component as it was at one level: the first vertices from its head.
@@ -92,12 +107,7 @@ std::vector<Index> sorted_by_level(const Levels& level) {
 class Flood {
  public:
   Flood(const toposcope::MeshView& mesh, const Levels& level, double step, const Limits& limits)
-      : mesh_(mesh),
-        level_(level),
-        step_(step),
-        limits_(limits),
-        forest_(mesh.vertex_count()),
-        past_(toposcope::large_array<Past>(mesh.vertex_count())) {}
+      : mesh_(mesh), level_(level), step_(step), limits_(limits), forest_(mesh.vertex_count()) {}
 
   void run() {
     const std::vector<Index> order = sorted_by_level(level_);
@@ -107,24 +117,31 @@ class Flood {
       enter(std::span(order).subspan(begin, end - begin), level_[order[begin]]);
       begin = end;
     }
-    for (Offer& offer : offers_) offer.saliency = std::max(offer.saliency, 0.0);
   }
 
   Components best() {
+    for (Offer& offer : offers_) offer.saliency = std::max(offer.saliency, 0.0);
     const auto better = [](const Offer& a, const Offer& b) {
       return std::tuple(-a.worth(), b.size, a.head) < std::tuple(-b.worth(), a.size, b.head);
     };
-    std::sort(offers_.begin(), offers_.end(), better);
-    if (offers_.size() > limits_.max_components) offers_.resize(limits_.max_components);
-    std::size_t total = 0;
-    for (const Offer& offer : offers_) total += offer.size;
+    const std::size_t kept = std::min(offers_.size(), limits_.max_components);
+    std::partial_sort(offers_.begin(), offers_.begin() + static_cast<std::ptrdiff_t>(kept), offers_.end(), better);
+    offers_.resize(kept);
     Components components;
-    toposcope::reserve_large(components.vertices, total);
     for (const Offer& offer : offers_) {
-      forest_.append_first(offer.head, offer.size, components.vertices);
-      components.offsets.push_back(components.vertices.size());
+      components.offsets.push_back(components.offsets.back() + offer.size);
       components.saliency.push_back(offer.saliency);
     }
+    components.vertices = toposcope::large_array<Index>(components.offsets.back());
+    // Stage by stage of each component.
+    std::vector<std::size_t> order(kept);
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return std::tuple(offers_[a].head, offers_[a].size, a) < std::tuple(offers_[b].head, offers_[b].size, b);
+    });
+    Forest::Walk walk(forest_);
+    for (std::size_t i : order)
+      walk.first(offers_[i].head, offers_[i].size, components.vertices.data() + components.offsets[i]);
     return components;
   }
 
@@ -134,11 +151,11 @@ class Flood {
     for (Index v : vertices) forest_.insert(v);
     for (Index v : vertices) {
       for (Index q : mesh_.one_ring(v))
-        if (forest_.contains(q)) meet(forest_.find(v), forest_.find(q), now);
+        if (level_[q] >= now) meet(forest_.find(v), forest_.find(q), now);
       changed_.push_back(forest_.find(v));
     }
     for (Index root : changed_) {
-      Past& past = past_[root];
+      Past& past = forest_.past(root);
       const Index size = forest_.size(root);
       if (forest_.find(root) != root || past.size == size) continue;
       if (size >= std::max<double>(limits_.min_vertices, limits_.growth * past.offered_size)) {
@@ -153,13 +170,15 @@ class Flood {
   void meet(Index a, Index b, std::int32_t now) {
     if (a == b) return;
     // The component with the longer past keeps its head; of equals the older.
-    const auto age = [&](Index r) { return std::tuple(past_[r].size, past_[r].offered_size, past_[r].level); };
+    const auto age = [&](Index r) {
+      return std::tuple(forest_.past(r).size, forest_.past(r).offered_size, forest_.past(r).level);
+    };
     if (age(a) < age(b) || (age(a) == age(b) && b < a)) std::swap(a, b);
-    if (past_[b].size >= limits_.min_vertices) {  // two components with a past meet: both as they were
+    if (forest_.past(b).size >= limits_.min_vertices) {  // two components with a past meet: both as they were
       // Before a merger a stage is worth offering for less growth than between mergers.
       const double growth = 1 + (limits_.growth - 1) / 4;
       for (Index head : {a, b}) {
-        const Past past = past_[head];
+        const Past past = forest_.past(head);
         if (past.size >= growth * past.offered_size) {
           settle(head, past.level);
           offer(head, past.size, past.level);
@@ -172,15 +191,15 @@ class Flood {
 
   void offer(Index head, Index size, std::int32_t at) {
     if (size < limits_.min_vertices || size > limits_.max_vertices) return;
-    past_[head].offered_size = size;
-    past_[head].offered = static_cast<Index>(offers_.size());
+    forest_.past(head).offered_size = size;
+    forest_.past(head).offered = static_cast<Index>(offers_.size());
     offers_.push_back({head, size, at});
   }
 
   /// The last stage offered is judged by how far the field fell until now.
   void settle(Index head, std::int32_t now) {
-    if (past_[head].offered == none) return;
-    Offer& last = offers_[past_[head].offered];
+    if (forest_.past(head).offered == none) return;
+    Offer& last = offers_[forest_.past(head).offered];
     if (last.saliency < 0) last.saliency = 1 - std::exp(-step_ * (last.level - now));
   }
 
@@ -189,7 +208,6 @@ class Flood {
   double step_;
   const Limits& limits_;
   Forest forest_;
-  std::vector<Past> past_;
   std::vector<Offer> offers_;
   std::vector<Index> changed_;
 };

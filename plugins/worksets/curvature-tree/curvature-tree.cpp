@@ -19,7 +19,7 @@ using namespace toposcope;
 
 constexpr OptionSpec options[] = {
     {"deviation", OptionType::real, "diagonals", "0.015", "0", "0.1",
-     "standard deviation of the kernel that smooths the curvature; at least one pass, at most twelve"},
+     "standard deviation of the kernel that smooths the curvature; at least one pass, at most eight"},
     {"growth", OptionType::real, "", "1.25", "1.05", "4",
      "a component is offered again each time that it has grown by this factor"},
     {"min_vertices", OptionType::integer, "", "6", "3", "1000", "the least size of a working set"},
@@ -72,17 +72,18 @@ class CurvatureTree final : public WorkingSetClassifier {
   std::array<component_tree::Levels, fields.size()> read_fields(const MeshView& mesh, Context& context) const {
     ShapeOperators operators = fit_shape_operators(mesh, context);
     diffuse(mesh, operators, diffusion_passes(mesh, deviation_ * mesh.box.diagonal(), 1), context);
-    const Curvature curvature = principal_curvatures(operators);
     // Lengths relative to the root of the surface area: unlike a box it has no ties to break.
     const double size = std::sqrt(surface_area(mesh));
     std::array<component_tree::Levels, fields.size()> levels;
     for (component_tree::Levels& level : levels) level = large_array<std::int32_t>(mesh.vertex_count());
     context.parallel_for(mesh.vertex_count(), 1024, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = 0; i < fields.size(); ++i)
-        for (std::size_t v = first; v < last; ++v) {
-          const double field = fields[i].second(size * curvature.maximum[v], size * curvature.minimum[v]);
+      for (std::size_t v = first; v < last; ++v) {
+        const PrincipalCurvatures principal = principal_curvatures(operators.at[v]);
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+          const double field = fields[i].second(size * principal.maximum, size * principal.minimum);
           levels[i][v] = static_cast<std::int32_t>(std::floor(field / step));
         }
+      }
     });
     return levels;
   }

@@ -197,7 +197,7 @@ TEST(DiffusionPasses, FollowDeviationAndEdge) {
   const MeshView& view = mesh.view();
   EXPECT_EQ(diffusion_passes(view, 0, 1), 1);
   EXPECT_EQ(diffusion_passes(view, std::sqrt(0.43 * 5) * view.mean_edge, 1), 5);
-  EXPECT_EQ(diffusion_passes(view, 100 * view.mean_edge, 1), 12);
+  EXPECT_EQ(diffusion_passes(view, 100 * view.mean_edge, 1), 8);
 }
 
 }  // namespace
