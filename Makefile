@@ -8,7 +8,7 @@ TOPOSCOPE := $(BUILD)/bin/toposcope
 # Compiling Eigen and Ceres takes about 1 GB a job.
 JOBS ?= $(shell nproc)
 
-.PHONY: all deps configure demo test fuzz format lint clean
+.PHONY: all deps configure demo test bench fuzz format lint clean
 all: configure
 	cmake --build $(BUILD) -j $(JOBS)
 
@@ -29,6 +29,14 @@ demo: configure
 
 test: all
 	ctest --preset $(PRESET) -j $(JOBS)
+
+# Speed beside other libraries; CGAL and VTK take part when libcgal-dev and libvtk9-dev are installed.
+bench: deps
+	@./scripts/install-deps libbenchmark-dev libpng-dev
+	@mkdir -p build
+	@cmake --preset release -DTOPOSCOPE_BENCH=ON > build/bench.log 2>&1 || { cat build/bench.log; exit 1; }
+	cmake --build build/release -j $(JOBS) --target bench program
+	build/release/bin/bench
 
 FUZZ_SECONDS ?= 600
 # Findings are left in build/fuzz/findings; the fuzzer says how to repeat one.

@@ -64,18 +64,72 @@ std::vector<bool> find_duplicates(std::span<const Triangle> welded, std::size_t 
   return duplicate;
 }
 
-/// Drops faces that are not there, twice there or not finite. \return the corners of the others, equal where vertices
-/// lie at one place
-std::vector<Triangle> clean(TriangleSoup& soup, std::span<const Index> first, const std::string& name,
-                            RepairReport& report) {
+/// The faces by the places of their corners, and how they hang together.
+struct Cleaned {
+  std::vector<Index> first;      ///< for each vertex the one that stands for its place
+  std::vector<Triangle> welded;  ///< corners by these
+  Gluing gluing;
+};
+
+/// Drops faces of which two corners are one, and all but the first of those with equal corners.
+void drop_waste(TriangleSoup& soup, std::vector<Triangle>& welded, RepairReport& report) {
+  report.degenerate_faces += drop_faces(soup, welded, [&](Index f) {
+    const auto& [a, b, c] = welded[f];
+    return a != b && b != c && c != a;
+  });
+  const std::vector<bool> duplicate = find_duplicates(welded, soup.positions.size());
+  report.duplicate_faces += drop_faces(soup, welded, [&](Index f) { return !duplicate[f]; });
+}
+
+/// Connected faces, by their glued sides.
+std::vector<Index> label_components(const Gluing& gluing, Index& count) {
+  std::vector<Index> label = large_array<Index>(gluing.opposite.size() / 3, Gluing::none);
+  std::vector<Index> faces;
+  count = 0;
+  for (Index seed = 0; seed < label.size(); ++seed) {
+    if (label[seed] != Gluing::none) continue;
+    label[seed] = count;
+    faces.assign(1, seed);
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (Index side = 3 * faces[i]; side < 3 * faces[i] + 3; ++side)
+        if (const Index other = gluing.opposite[side]; other != Gluing::none && label[other / 3] == Gluing::none) {
+          label[other / 3] = count;
+          faces.push_back(other / 3);
+        }
+    ++count;
+  }
+  return label;
+}
+
+/// Drops components all of whose faces lie where other components' earlier faces lie: an object that was exported
+/// twice. \return whether there were any
+bool drop_repeated_components(TriangleSoup& soup, Cleaned& cleaned, std::span<const Index> place,
+                              RepairReport& report) {
+  Index count = 0;
+  const std::vector<Index> label = label_components(cleaned.gluing, count);
+  if (count < 2) return false;
+  std::vector<Triangle> placed;
+  for (const auto& [a, b, c] : soup.triangles) placed.push_back({place[a], place[b], place[c]});
+  const std::vector<bool> duplicate = find_duplicates(placed, soup.positions.size());
+  std::vector<bool> repeated(count, true);
+  for (Index f = 0; f < label.size(); ++f)
+    if (!duplicate[f]) repeated[label[f]] = false;
+  const Index dropped = drop_faces(soup, cleaned.welded, [&](Index f) { return !repeated[label[f]]; });
+  report.duplicate_faces += dropped;
+  return dropped > 0;
+}
+
+/// Drops faces that are not there, twice there or not finite, and joins vertices at one place where the surface is
+/// open: seams and separate triangles close, and what is closed already stays as it is.
+Cleaned clean(TriangleSoup& soup, const std::string& name, RepairReport& report) {
   std::vector<bool> finite(soup.positions.size());
   for (std::size_t v = 0; v < finite.size(); ++v) {
     finite[v] = soup.positions[v].allFinite();
     report.non_finite_vertices += !finite[v];
   }
-  std::vector<Triangle> welded;
-  reserve_large(welded, soup.triangles.size());
-  for (const Triangle& t : soup.triangles) welded.push_back({first[t[0]], first[t[1]], first[t[2]]});
+  Cleaned cleaned;
+  std::vector<Triangle>& welded = cleaned.welded;
+  welded = soup.triangles;
   const auto input_faces = static_cast<double>(soup.triangles.size());
   if (report.non_finite_vertices > 0)
     report.non_finite_faces = drop_faces(soup, welded, [&](Index f) {
@@ -84,15 +138,33 @@ std::vector<Triangle> clean(TriangleSoup& soup, std::span<const Index> first, co
   if (report.non_finite_faces > most_non_finite * input_faces)
     throw MeshError(name + ": " + std::to_string(report.non_finite_faces) +
                     " faces have a corner that is not a finite number; the file is damaged, export it again");
-  report.degenerate_faces = drop_faces(soup, welded, [&](Index f) {
-    const auto& [a, b, c] = welded[f];
-    return a != b && b != c && c != a;
-  });
-  const std::vector<bool> duplicate = find_duplicates(welded, soup.positions.size());
-  report.duplicate_faces = drop_faces(soup, welded, [&](Index f) { return !duplicate[f]; });
+  drop_waste(soup, welded, report);
+  cleaned.gluing = glue(soup.positions, welded, soup.triangles);
+
+  cleaned.first = first_at_same_place(soup.positions, std::vector<bool>(soup.positions.size(), true));
+  const auto joins = [&] {
+    for (Index v = 0; v < cleaned.first.size(); ++v)
+      if (cleaned.first[v] != v) return true;
+    return false;
+  };
+  if (joins()) {
+    if (drop_repeated_components(soup, cleaned, cleaned.first, report))
+      cleaned.gluing = glue(soup.positions, welded, soup.triangles);
+    std::vector<bool> open(soup.positions.size(), false);
+    for (Index side = 0; side < cleaned.gluing.opposite.size(); ++side)
+      if (cleaned.gluing.opposite[side] == Gluing::none)
+        for (Index s : {side, Gluing::next(side)}) open[welded[s / 3][s % 3]] = true;
+    cleaned.first = first_at_same_place(soup.positions, open);
+    if (joins()) {
+      for (Triangle& t : welded)
+        for (Index& v : t) v = cleaned.first[v];
+      drop_waste(soup, welded, report);
+      cleaned.gluing = glue(soup.positions, welded, soup.triangles);
+    }
+  }
   if (soup.triangles.empty())
     throw MeshError(name + ": every face has two corners at one place, nothing is left of the surface");
-  return welded;
+  return cleaned;
 }
 
 /// Where sheets that were split stay together around both ends of an edge, their faces still share it by their numbers.
@@ -196,10 +268,7 @@ bool RepairReport::changed() const {
 
 RepairReport repair(TriangleSoup& soup, const std::string& name) {
   RepairReport report;
-  const std::vector<Index> first = first_at_same_place(soup.positions);
-  std::vector<Triangle> welded = clean(soup, first, name, report);
-
-  Gluing gluing = glue(soup.positions, welded, soup.triangles);
+  auto [first, welded, gluing] = clean(soup, name, report);
   report.split_edges = gluing.split_edges;
   Components components = orient(soup.positions, welded, soup.triangles, gluing);
   report.turned_faces = components.turned_faces;

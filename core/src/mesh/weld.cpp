@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/weld.h"
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -22,14 +23,15 @@ std::uint64_t hash_of(const Vec3& point) {
 
 }  // namespace
 
-std::vector<Index> first_at_same_place(std::span<const Vec3> points) {
+std::vector<Index> first_at_same_place(std::span<const Vec3> points, const std::vector<bool>& among) {
   constexpr Index empty = std::numeric_limits<Index>::max();
-  const std::size_t size = std::bit_ceil(2 * points.size() + 1);
+  const auto asked = static_cast<std::size_t>(std::count(among.begin(), among.end(), true));
+  const std::size_t size = std::bit_ceil(2 * asked + 1);
   std::vector<Index> slots = large_array<Index>(size, empty);
   std::vector<Index> first = large_array<Index>(points.size());
   for (Index v = 0; v < points.size(); ++v) {
     first[v] = v;
-    if (!points[v].allFinite()) continue;
+    if (!among[v] || !points[v].allFinite()) continue;
     std::size_t i = hash_of(points[v]) & (size - 1);
     while (slots[i] != empty && points[slots[i]] != points[v]) i = (i + 1) & (size - 1);
     if (slots[i] == empty)

@@ -8,7 +8,8 @@
 
 namespace toposcope {
 
-/// For each point the first one at exactly the same place (-0 is 0). A point that is not finite is alone.
-std::vector<Index> first_at_same_place(std::span<const Vec3> points);
+/// For each point `among` those asked for the first of them at exactly the same place (-0 is 0); any other point, and
+/// one that is not finite, stands for itself.
+std::vector<Index> first_at_same_place(std::span<const Vec3> points, const std::vector<bool>& among);
 
 }  // namespace toposcope
