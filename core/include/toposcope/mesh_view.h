@@ -8,9 +8,9 @@
 namespace toposcope {
 
 /// A triangle mesh as plugins see it: contiguous arrays and adjacency in compressed rows, owned by the kernel.
-/// Guaranteed: finite positions, indices in range, at least one face, no face with a repeated vertex. The program repairs
-/// what it reads, so that its meshes are also manifold (with border) and consistently oriented; whoever needs that of a
-/// mesh of other origin checks it (opposite_half_edges). Not guaranteed: closed, connected.
+/// Guaranteed: finite positions, indices in range, at least one face, no face with a repeated vertex. The program
+/// repairs what it reads, so that its meshes are also manifold (with border) and consistently oriented; whoever needs
+/// that of a mesh of other origin checks it (opposite_half_edges). Not guaranteed: closed, connected.
 struct MeshView {
   std::span<const Vec3> positions;
   std::span<const Triangle> triangles;
