@@ -4,8 +4,9 @@
 set(package_dir lib/cmake/Toposcope)
 set_target_properties(toposcope_api PROPERTIES EXPORT_NAME api)
 set_target_properties(toposcope_geometry PROPERTIES EXPORT_NAME geometry)
+set_target_properties(toposcope_labeling PROPERTIES EXPORT_NAME labeling)
 set_target_properties(toposcope_write_manifest PROPERTIES EXPORT_NAME write_manifest)
-install(TARGETS toposcope_api toposcope_geometry toposcope_write_manifest EXPORT ToposcopeTargets
+install(TARGETS toposcope_api toposcope_geometry toposcope_labeling toposcope_write_manifest EXPORT ToposcopeTargets
   ARCHIVE DESTINATION lib RUNTIME DESTINATION bin)
 install(EXPORT ToposcopeTargets NAMESPACE Toposcope:: DESTINATION ${package_dir})
 install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/../core/include/toposcope DESTINATION include)

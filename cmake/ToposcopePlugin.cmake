@@ -24,7 +24,7 @@ function(toposcope_add_plugin kind id)
     CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/plugins/${kind}
     LINK_DEPENDS "${map};$<TARGET_FILE:Toposcope::write_manifest>")
-  target_link_libraries(${target} PRIVATE Toposcope::geometry ${arg_LIBRARIES})
+  target_link_libraries(${target} PRIVATE Toposcope::geometry Toposcope::labeling ${arg_LIBRARIES})
   target_link_options(${target} PRIVATE -Wl,--no-undefined -Wl,--version-script=${map})
   add_custom_command(TARGET ${target} POST_BUILD VERBATIM
     COMMAND Toposcope::write_manifest ${kind} ${id} $<TARGET_FILE:${target}>

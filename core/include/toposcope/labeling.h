@@ -12,32 +12,43 @@
 
 namespace toposcope {
 
-/// A model feature and the values that it may take. Value 0 is *missing*; value k >= 1 is a candidate.
+inline constexpr Index no_candidate = std::numeric_limits<Index>::max();
+
+/// A model feature and the values that it may take. Of an optional variable value 0 is *missing*.
 struct LabelingVariable {
   std::string name;
   double detectability = 1;
-  std::vector<Index> candidates;  ///< for value k >= 1: candidates[k - 1], an id in the problem's conflict table
-  std::vector<double> costs;      ///< size candidates + 1: minus log likelihood ratio; costs[0] is that of missing
+  std::vector<Index> candidates = {};  ///< per value other than missing: a row of the problem's conflict table; empty:
+                                       ///< the variable's values exclude nothing
+  std::vector<double> costs = {};      ///< per value: minus log likelihood ratio; infinite: forbidden
+  bool optional = true;                ///< value 0 is *missing*; false: every value is a candidate
+  std::vector<std::string> value_names = {};  ///< per value; empty: values are known by number
 
-  std::size_t domain() const { return costs.size(); }
+  Index domain() const { return static_cast<Index>(costs.size()); }
+  bool missing(Index value) const { return optional && value == 0; }
+  /// Row of the conflict table; `no_candidate` for missing and where there are no candidates.
+  Index candidate(Index value) const {
+    return candidates.empty() || missing(value) ? no_candidate : candidates[value - (optional ? 1 : 0)];
+  }
 };
 
-/// A relationship over two or more variables, as dense tables over their domains (row-major, last variable
+/// A relationship over one or more variables, as dense tables over their domains (row-major, last variable
 /// fastest). Where any variable of the scope is missing the relationship says nothing: cost 0, satisfied.
 struct LabelingConstraint {
   std::string name;
-  std::vector<Index> scope;
-  std::vector<float> costs;       ///< minus log likelihood ratio of "holds" against unrelated features
-  std::vector<float> violations;  ///< residual / tolerance: satisfied where <= 1, infinite where it cannot apply; 0
-                                  ///< where a variable is missing
+  std::vector<Index> scope;            ///< variables, each once
+  std::vector<double> costs = {};      ///< minus log likelihood ratio of "holds" against unrelated; infinite: forbidden
+  std::vector<float> violations = {};  ///< the crisp form, residual / tolerance: satisfied where <= 1, infinite where
+                                       ///< it cannot apply; empty: satisfied where the cost is finite
 };
 
 /// Variables, domains, constraints and exclusions; knows nothing of meshes (dissertation 3.4.2, "consistent
-/// labeling problem").
+/// labeling problem"). `toposcope/labeling_tools.h` has what labelers ask of it.
 struct LabelingProblem {
   std::string name;
   std::vector<LabelingVariable> variables;
   std::vector<LabelingConstraint> constraints;
+  double constant = 0;  ///< part of every labelling's cost
 
   Index candidate_count = 0;
   std::vector<std::uint64_t> conflict_bits;  ///< candidate_count rows of conflict_words() words; symmetric; a
@@ -50,21 +61,38 @@ struct LabelingProblem {
 struct LabelingRequest {
   std::size_t k_best = 10;
   double time_limit_s = 10;
+  double within = std::numeric_limits<double>::infinity();  ///< labellings costlier than the best by more are left out
 };
 
 struct Labeling {
-  std::vector<Index> values;  ///< one per variable; 0 = missing
-  double cost = 0;
+  std::vector<Index> values;  ///< one per variable
+  double cost = 0;            ///< as `cost_of` sums it
+};
+
+/// A value that no consistent labelling can have, and why; in the order in which the values fell.
+struct FallenValue {
+  Index variable = 0, value = 0;
+  std::string reason;
+};
+
+/// Something that a labeler has to tell beyond its labellings: its convergence, entropy, count of solutions.
+struct LabelingFact {
+  std::string name, value;
 };
 
 struct LabelingOutcome {
-  std::vector<Labeling> labelings;  ///< best first, at most k_best; never empty: all missing is a labelling
-  double lower_bound = -std::numeric_limits<double>::infinity();
-  bool optimal = false;                         ///< the first labelling is proven best under the labeler's own rules
-  double log_evidence = 0;                      ///< log of the sum over labellings of exp(-cost)
+  std::vector<Labeling> labelings;  ///< best first by the labeler's own rank, at most k_best; consistent with the
+                                    ///< exclusions. Empty only where a variable that may not be missing stands in the
+                                    ///< way: none exists (`optimal`), or none was found
+  double lower_bound = -std::numeric_limits<double>::infinity();  ///< no labelling costs less; infinite: none exists
+  bool optimal = false;  ///< the first labelling is proven best under the labeler's own rules
+  double log_evidence = std::numeric_limits<double>::quiet_NaN();  ///< log of the sum over labellings of exp(-cost);
+                                                                   ///< not a number where the labeler makes none
   std::vector<std::vector<double>> posteriors;  ///< per variable, per value; empty where the labeler makes none
-  std::uint64_t nodes = 0;
-  std::string guarantee;  ///< one line: what the labeler promises of this outcome
+  std::uint64_t nodes = 0;                      ///< of a search tree, or sweeps, or moves
+  std::string guarantee;                        ///< one line: what the labeler promises of this outcome
+  std::vector<FallenValue> fallen = {};
+  std::vector<LabelingFact> facts = {};
 };
 
 /// Solves labelling problems. Keeps its best answer when cancelled or out of time.

@@ -18,7 +18,7 @@
 
 namespace toposcope {
 
-inline constexpr std::uint32_t abi_major = 1;  ///< differs: refused
+inline constexpr std::uint32_t abi_major = 2;  ///< differs: refused
 inline constexpr std::uint32_t abi_minor = 0;  ///< a plugin built against a newer minor is refused
 
 #define TOPOSCOPE_STRINGIFY_(x) #x

@@ -9,6 +9,7 @@
 #include "pipeline/labeling_problem.h"
 #include "plugin/plugin_host.h"
 #include "probability/symmetry.h"
+#include "toposcope/labeling_tools.h"
 
 namespace toposcope {
 namespace {
@@ -70,7 +71,7 @@ ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeat
   const Labeling& best = posed.outcome.labelings.front();
   posed.complete = std::all_of(best.values.begin(), best.values.end(), [](Index value) { return value > 0; });
   for (const LabelingConstraint& constraint : posed.problem.constraints)
-    posed.complete = posed.complete && constraint.violations[table_entry(posed.problem, constraint, best)] <= 1;
+    posed.complete = posed.complete && satisfied(constraint, table_entry(posed.problem, constraint, best.values));
   return posed;
 }
 

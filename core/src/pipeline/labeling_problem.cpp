@@ -8,6 +8,7 @@
 
 #include "base/errors.h"
 #include "plugin/plugin_host.h"
+#include "toposcope/labeling_tools.h"
 
 namespace toposcope {
 namespace {
@@ -122,11 +123,14 @@ void fill_constraint(LabelingConstraint& constraint, const MeshView& mesh, const
       }
       if (conflict) {
         constraint.violations[entry] = std::numeric_limits<float>::infinity();
+        constraint.costs[entry] = forbidden;
         continue;
       }
       const RelationResult result = relation.test(mesh, given, operands, context);
-      constraint.costs[entry] = static_cast<float>(-relation_evidence(probability, result));
       constraint.violations[entry] = static_cast<float>(violation(result));
+      constraint.costs[entry] = probability.crisp && !(constraint.violations[entry] <= 1)
+                                    ? forbidden
+                                    : -relation_evidence(probability, result);
     }
   });
 }
@@ -261,32 +265,20 @@ LabelingProblem restricted(const LabelingProblem& problem, const std::vector<std
   return result;
 }
 
-std::size_t table_entry(const LabelingProblem& problem, const LabelingConstraint& constraint,
-                        const Labeling& labeling) {
-  std::size_t entry = 0;
-  for (Index v : constraint.scope) entry = entry * problem.variables[v].domain() + labeling.values[v];
-  return entry;
-}
-
 void check_outcome(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& plugin) {
-  if (outcome.labelings.empty()) throw PluginError(plugin, "gave no labelling, not even that all is missing");
+  if (outcome.labelings.empty() && !all_missing(problem).empty())
+    throw PluginError(plugin, "gave no labelling, not even that all is missing");
   for (const Labeling& labeling : outcome.labelings) {
     if (labeling.values.size() != problem.variables.size())
       throw PluginError(plugin, "gave a labelling of " + std::to_string(labeling.values.size()) + " values for " +
                                     std::to_string(problem.variables.size()) + " variables");
-    std::vector<Index> used;
-    for (Index v = 0; v < labeling.values.size(); ++v) {
-      const LabelingVariable& variable = problem.variables[v];
-      if (labeling.values[v] >= variable.domain())
-        throw PluginError(plugin, "gave '" + variable.name + "' value " + std::to_string(labeling.values[v]) + " of " +
-                                      std::to_string(variable.domain()));
-      if (labeling.values[v] == 0) continue;
-      const Index candidate = variable.candidates[labeling.values[v] - 1];
-      for (Index other : used)
-        if (problem.conflict(candidate, other))
-          throw PluginError(plugin, "labelled two features with candidates that share a vertex");
-      used.push_back(candidate);
-    }
+    for (Index v = 0; v < labeling.values.size(); ++v)
+      if (labeling.values[v] >= problem.variables[v].domain())
+        throw PluginError(plugin, "gave '" + problem.variables[v].name + "' value " +
+                                      std::to_string(labeling.values[v]) + " of " +
+                                      std::to_string(problem.variables[v].domain()));
+    if (!meets_exclusions(problem, labeling.values))
+      throw PluginError(plugin, "labelled two features with candidates that share a vertex");
   }
   if (outcome.posteriors.empty()) return;
   bool sized = outcome.posteriors.size() == problem.variables.size();

@@ -24,9 +24,6 @@ std::vector<ClassOutcome> pose_classes(const LabelingProblem& problem, const Mod
 /// The problem with only the given values of each variable (ascending; 0, *missing*, among them).
 LabelingProblem restricted(const LabelingProblem& problem, const std::vector<std::vector<Index>>& kept);
 
-/// Where a labelling stands in a constraint's tables.
-std::size_t table_entry(const LabelingProblem& problem, const LabelingConstraint& constraint, const Labeling& labeling);
-
 /// Refuses an outcome that breaks the labelers' contract: no labelling, values out of range, two features that share a
 /// vertex, posteriors of the wrong size. \throw PluginError
 void check_outcome(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& plugin);

@@ -16,6 +16,7 @@ struct ProbabilityModel {
   double unexplained_cost;     ///< nats per independent sample that the shape leaves out
   double relation_exception;   ///< probability that a relationship fails although its features are right
   double certainty;            ///< detectability is held below this: nothing is certain
+  bool crisp;                  ///< a relationship beyond its tolerance is forbidden; else it only costs
   std::size_t max_candidates;  ///< kept per feature, the best by evidence
 };
 

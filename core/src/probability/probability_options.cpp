@@ -6,7 +6,7 @@
 namespace toposcope {
 
 std::span<const OptionRow> probability_option_table() {
-  static const std::array<OptionRow, 6> table = {{
+  static const std::array<OptionRow, 7> table = {{
       {"max_candidates", OptionType::integer, "", "80", "1", "1000",
        "candidates kept per feature, the best by evidence"},
       {"fit_error_scale", OptionType::real, "mean-edges", "2", "0.001", "1000",
@@ -17,6 +17,8 @@ std::span<const OptionRow> probability_option_table() {
        "cost of an independent sample that the shape leaves out"},
       {"relation_exception", OptionType::real, "", "0.01", "1e-12", "0.5",
        "probability that a relationship fails although its features are right"},
+      {"crisp", OptionType::boolean, "", "true", "", "",
+       "a relationship beyond its tolerance is forbidden; false: it only costs"},
       {"certainty", OptionType::real, "", "0.99", "0.5", "0.999999", "detectability is held below this"},
   }};
   return table;
@@ -28,6 +30,7 @@ ProbabilityModel probability_model(const Options& options) {
           .unexplained_cost = options.real("unexplained_cost"),
           .relation_exception = options.real("relation_exception"),
           .certainty = options.real("certainty"),
+          .crisp = options.boolean("crisp"),
           .max_candidates = static_cast<std::size_t>(options.integer("max_candidates"))};
 }
 

@@ -5,6 +5,7 @@
 
 #include "pipeline/labeling_problem.h"
 #include "result/result.h"
+#include "toposcope/labeling_tools.h"
 
 namespace toposcope {
 namespace {
@@ -64,7 +65,7 @@ class Explainer {
     report.probability = probability(v, value);
     if (report.present) {
       const ConstructedFeature& made = constructed(v, value);
-      report.evidence = -cost_over_missing(best_, v);
+      report.evidence = -price_over_missing(best_, v).cost;
       report.shape = made.shape;
       report.working_sets = made.sets;
       report.triangles = triangles_of(made);
@@ -136,25 +137,24 @@ class Explainer {
     }
     Labeling trial = best_;
     Index nearest = 0, in_conflict = 0;
-    report.nearest_cost = std::numeric_limits<double>::infinity();
+    Price least{std::numeric_limits<std::size_t>::max(), 0};
     for (Index value = 1; value < variable.domain(); ++value) {
       trial.values[v] = value;
-      if (conflicts(trial, v)) {
+      if (!meets_exclusions(posed_.problem, trial.values)) {
         ++in_conflict;
         continue;
       }
-      const double cost = cost_over_missing(trial, v);
-      if (cost < report.nearest_cost) {
-        report.nearest_cost = cost;
+      if (const Price price = price_over_missing(trial, v); price < least) {
+        least = price;
         nearest = value;
       }
     }
     if (nearest == 0) {
       report.reason = "all " + std::to_string(in_conflict) + " candidates share vertices with other labelled features";
-      report.nearest_cost = 0;
       return report;
     }
     trial.values[v] = nearest;
+    report.nearest_cost = least.cost;
     report.nearest = constructed(v, nearest).shape;
     for (Index c = 0; c < posed_.problem.constraints.size(); ++c) {
       const auto& scope = posed_.problem.constraints[c].scope;
@@ -168,23 +168,25 @@ class Explainer {
     return report;
   }
 
-  /// What labelling variable v adds to the cost over leaving it missing, all else as it is.
-  double cost_over_missing(const Labeling& labeling, Index v) const {
+  /// What labelling variable v adds over leaving it missing, all else as it is: relationships forbidden, and cost
+  /// without these.
+  struct Price {
+    std::size_t forbidden;
+    double cost;
+    auto operator<=>(const Price&) const = default;
+  };
+  Price price_over_missing(const Labeling& labeling, Index v) const {
     const LabelingVariable& variable = posed_.problem.variables[v];
-    double cost = variable.costs[labeling.values[v]] - variable.costs[0];
-    for (const LabelingConstraint& constraint : posed_.problem.constraints)
-      if (std::find(constraint.scope.begin(), constraint.scope.end(), v) != constraint.scope.end())
-        cost += static_cast<double>(constraint.costs[table_entry(posed_.problem, constraint, labeling)]);
-    return cost;
-  }
-
-  bool conflicts(const Labeling& labeling, Index v) const {
-    const Index id = posed_.problem.variables[v].candidates[labeling.values[v] - 1];
-    for (Index w = 0; w < labeling.values.size(); ++w)
-      if (w != v && labeling.values[w] > 0 &&
-          posed_.problem.conflict(id, posed_.problem.variables[w].candidates[labeling.values[w] - 1]))
-        return true;
-    return false;
+    Price price{0, variable.costs[labeling.values[v]] - variable.costs[0]};
+    for (const LabelingConstraint& constraint : posed_.problem.constraints) {
+      if (std::find(constraint.scope.begin(), constraint.scope.end(), v) == constraint.scope.end()) continue;
+      const double cost = constraint.costs[table_entry(posed_.problem, constraint, labeling.values)];
+      if (cost < forbidden)
+        price.cost += cost;
+      else
+        ++price.forbidden;
+    }
+    return price;
   }
 
   static std::string no_candidate(const ModelFeature& feature, const CandidateCount& count) {

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "toposcope/labeling.h"
+#include "toposcope/labeling_tools.h"
 
 namespace toposcope::tree_search {
 
-inline constexpr double forbidden = std::numeric_limits<double>::infinity();
 /// What a relation that cannot apply counts where violations are summed and nothing is forbidden.
 inline constexpr double inapplicable_violation = 1e9;
 
@@ -26,45 +26,6 @@ inline constexpr double inapplicable_violation = 1e9;
 /// 1, the worst that a satisfied one can be: otherwise the labelling that finds nothing would satisfy best.
 inline double counted_violation(bool untested, double violation) {
   return untested ? 1.0 : std::min(violation, inapplicable_violation);
-}
-
-/// \throw std::invalid_argument  tables that do not fit their domains, numbers that are no costs
-inline void check(const LabelingProblem& problem) {
-  for (const LabelingVariable& variable : problem.variables) {
-    if (variable.costs.size() != variable.candidates.size() + 1)
-      throw std::invalid_argument("variable '" + variable.name + "' has " + std::to_string(variable.costs.size()) +
-                                  " costs for " + std::to_string(variable.candidates.size()) +
-                                  " candidates; it needs one more cost than candidates, that of missing first");
-    for (const double cost : variable.costs)
-      if (!(cost > -forbidden))
-        throw std::invalid_argument("variable '" + variable.name + "' has a cost that is -infinity or not a number");
-    for (const Index candidate : variable.candidates)
-      if (candidate >= problem.candidate_count)
-        throw std::invalid_argument("variable '" + variable.name + "' names candidate " + std::to_string(candidate) +
-                                    " of " + std::to_string(problem.candidate_count));
-  }
-  if (problem.conflict_bits.size() != problem.candidate_count * problem.conflict_words())
-    throw std::invalid_argument("the conflict table has " + std::to_string(problem.conflict_bits.size()) + " words; " +
-                                std::to_string(problem.candidate_count) + " candidates need " +
-                                std::to_string(problem.candidate_count * problem.conflict_words()));
-  for (const LabelingConstraint& constraint : problem.constraints) {
-    std::size_t entries = 1;
-    for (std::size_t k = 0; k < constraint.scope.size(); ++k) {
-      if (constraint.scope[k] >= problem.variables.size() ||
-          std::count(constraint.scope.begin(), constraint.scope.end(), constraint.scope[k]) != 1)
-        throw std::invalid_argument("constraint '" + constraint.name + "' names variable " +
-                                    std::to_string(constraint.scope[k]) + ", which is repeated or not in the problem");
-      entries *= problem.variables[constraint.scope[k]].domain();
-    }
-    if (constraint.scope.empty() || constraint.costs.size() != entries || constraint.violations.size() != entries)
-      throw std::invalid_argument("constraint '" + constraint.name + "' has " +
-                                  std::to_string(constraint.costs.size()) + " costs and " +
-                                  std::to_string(constraint.violations.size()) + " violations; its scope needs " +
-                                  std::to_string(entries) + " of each");
-    for (const float cost : constraint.costs)
-      if (!(cost > -forbidden))
-        throw std::invalid_argument("constraint '" + constraint.name + "' has a cost that is -infinity or no number");
-  }
 }
 
 /// Variables in the order in which they enter the tree (dissertation 3.4.2): relationships by the product of their
@@ -239,7 +200,7 @@ class Tables {
       const bool untested = std::find(digits.begin(), digits.end(), std::size_t{0}) != digits.end();
       const double residual = constraint.violations[entry];
       const bool cut = crisp && !untested && !(residual <= 1);
-      const double value = violations ? counted_violation(untested, residual) : double{constraint.costs[entry]};
+      const double value = violations ? counted_violation(untested, residual) : constraint.costs[entry];
       table[at] = cut ? forbidden : value;
       for (std::size_t k = arity; k-- > 0;) {  // next digits, the last variable fastest
         if (++digits[k] < problem.variables[constraint.scope[k]].domain()) break;

@@ -13,6 +13,7 @@ const ProbabilityModel model{.sample_spacing = 4,
                              .unexplained_cost = 1,
                              .relation_exception = 0.01,
                              .certainty = 0.99,
+                             .crisp = true,
                              .max_candidates = 10};
 
 FittedShape shape(double explained, double rms, double unexplained = 0) {
