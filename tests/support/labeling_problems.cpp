@@ -4,31 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 #include <string>
 #include <tuple>
 
+#include "support/random.h"
 #include "toposcope/labeling_tools.h"
 
 namespace toposcope::test {
-namespace {
-
-/// The same numbers with every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  bool chance(double p) { return uniform(0, 1) < p; }
-  Index below(std::size_t n) { return static_cast<Index>(engine_() % n); }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-}  // namespace
-
 LabelingConstraint empty_constraint(const LabelingProblem& problem, std::vector<Index> scope) {
   LabelingConstraint constraint{"", std::move(scope)};
   std::size_t entries = 1;
