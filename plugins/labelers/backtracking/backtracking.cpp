@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Backtracking tree search for labellings that meet all constraints (dissertation 3.4.2, category 1).
+
+#include "ranking.h"
+#include "toposcope/crisp_outcome.h"
+#include "toposcope/plugin.h"
+
+namespace {
+
+using namespace toposcope;
+using namespace toposcope::backtracking;
+
+enum class Find : std::uint8_t { first, all, count };
+enum class Missing : std::uint8_t { only_if_needed, allowed, never };
+
+struct Settings {
+  Find find;
+  Missing missing;
+  bool by_violation;
+  CrispRules rules;
+};
+
+// One run over one problem.
+class Run {
+ public:
+  Run(const Settings& settings, const LabelingProblem& problem, const LabelingRequest& request, Deadline& deadline)
+      : settings_(settings),
+        problem_(problem),
+        request_(request),
+        deadline_(deadline),
+        network_(problem, deadline, part()),
+        rules_(settings.rules) {
+    rules_.missing_last = settings.missing == Missing::only_if_needed;
+  }
+
+  LabelingOutcome outcome() {
+    std::vector<Index> first;
+    const CrispSearch::End end = find(first);
+    LabelingOutcome outcome;
+    if (first.empty()) {
+      const bool none = end == CrispSearch::End::exhausted;
+      outcome = without_labeling(problem_, none);
+      if (none) outcome.facts.push_back({"consistent labellings", "0"});
+    } else {
+      if (settings_.missing == Missing::only_if_needed) {
+        fewest_proven_ = need_missing(first);
+        rules_.missing_limit = count_missing(problem_, first);
+        outcome.facts.push_back({"missing at least", std::to_string(proven_missing_)});
+      }
+      list_labelings(first, outcome);
+    }
+    outcome.nodes = nodes_;
+    find_lower_bound(outcome);
+    return outcome;
+  }
+
+ private:
+  CrispPart part() const {
+    CrispPart made;
+    if (settings_.missing == Missing::never) made.present.assign(problem_.variables.size(), true);
+    return made;
+  }
+
+  CrispSearch::End find(std::vector<Index>& values) {
+    FirstFound first(problem_, values);
+    return search(first);
+  }
+
+  CrispSearch::End search(CrispVisitor& visitor) {
+    CrispSearch made(network_, rules_, visitor, deadline_);
+    return run(made);
+  }
+
+  CrispSearch::End run(CrispSearch& made) {
+    const CrispSearch::End end = made.run();
+    nodes_ += made.nodes();
+    return end;
+  }
+
+  // The fewest missing: `values` is improved until fewer are proven impossible. \return true when proven
+  bool need_missing(std::vector<Index>& values) {
+    for (proven_missing_ = 0; proven_missing_ < count_missing(problem_, values); ++proven_missing_) {
+      rules_.missing_limit = proven_missing_;
+      std::vector<Index> fewer;
+      const CrispSearch::End end = find(fewer);
+      if (!fewer.empty()) values = fewer;
+      if (end == CrispSearch::End::out_of_time) return false;
+    }
+    return true;
+  }
+
+  void list_labelings(const std::vector<Index>& first, LabelingOutcome& outcome) {
+    const Ranked seed = ranked(problem_, first, settings_.by_violation);
+    // Ranked by violation, what is too costly is known when the best is: then a second search lists the others.
+    const bool two_passes = settings_.by_violation && request_.within < forbidden;
+    RankedList list(two_passes ? 1 : request_.k_best, two_passes ? forbidden : request_.within, forbidden);
+    list.offer(seed);
+    bool proven = fewest_proven_;
+    if (settings_.find == Find::first) {
+      proven = false;
+    } else if (settings_.find == Find::count && proven) {
+      Counter counter(problem_, settings_.by_violation, list);
+      proven = search(counter) == CrispSearch::End::exhausted;
+      outcome.facts.push_back({"consistent labellings", (proven ? "" : "at least ") + std::to_string(counter.count())});
+    } else if (proven) {
+      proven = branch_and_bound(list);
+    }
+    outcome.optimal = proven;
+    if (two_passes) {
+      RankedList rest(request_.k_best, forbidden, list.list().front().labeling.cost + request_.within);
+      rest.offer(list.list().front());
+      if (settings_.find != Find::first && proven) proven = branch_and_bound(rest);
+      list = rest;
+    }
+    for (const Ranked& each : list.list()) outcome.labelings.push_back(each.labeling);
+    describe(outcome, proven);
+  }
+
+  bool branch_and_bound(RankedList& list) {
+    const std::vector<Index> order = detectability_order(problem_);
+    Objective cost, violation;
+    if (!cost.make(network_, false, order, deadline_)) return false;
+    if (settings_.by_violation && !violation.make(network_, true, order, deadline_)) return false;
+    BranchAndBound visitor(network_, cost, settings_.by_violation ? &violation : nullptr, list);
+    CrispSearch made(network_, rules_, visitor, deadline_);
+    visitor.follow(made.domains());
+    return run(made) == CrispSearch::End::exhausted;
+  }
+
+  void describe(LabelingOutcome& outcome, bool all_proven) const {
+    std::string& text = outcome.guarantee;
+    text = settings_.find == Find::first ? "first consistent labelling"
+           : settings_.by_violation      ? "constraints best satisfied"
+                                         : "least cost of the consistent labellings";
+    if (settings_.missing == Missing::only_if_needed)
+      text += fewest_proven_ ? ", fewest missing proven" : ", fewest missing not proven, stopped early";
+    if (settings_.missing == Missing::never) text += ", none missing";
+    if (settings_.find == Find::first) return;
+    text += outcome.optimal ? ": proven" : ": not proven, stopped early";
+    if (request_.k_best > 1) text += all_proven ? "; alternatives proven" : "; alternatives may lack some";
+  }
+
+  void find_lower_bound(LabelingOutcome& outcome) {
+    // The best of the consistent labellings is the best of all only where the rules leave all of them in.
+    const bool best_of_all = outcome.optimal && !outcome.labelings.empty() && settings_.missing == Missing::allowed &&
+                             !settings_.by_violation && network_.by_cost_alone();
+    outcome.lower_bound = best_of_all ? outcome.labelings[0].cost : sum_of_minima(problem_, deadline_);
+  }
+
+  const Settings& settings_;
+  const LabelingProblem& problem_;
+  const LabelingRequest& request_;
+  Deadline& deadline_;
+  CrispNetwork network_;
+  CrispRules rules_;
+  std::uint64_t nodes_ = 0;
+  Index proven_missing_ = 0;
+  bool fewest_proven_ = true;
+};
+
+class Backtracking final : public Labeler {
+ public:
+  explicit Backtracking(const Options& options) {
+    const std::string &find = options.text("find"), &missing = options.text("missing");
+    settings_.find = find == "first" ? Find::first : find == "all" ? Find::all : Find::count;
+    settings_.missing = missing == "only-if-needed" ? Missing::only_if_needed
+                        : missing == "allowed"      ? Missing::allowed
+                                                    : Missing::never;
+    settings_.by_violation = options.text("rank") == "violation";
+    const std::string &relaxation = options.text("relaxation"), &order = options.text("order");
+    settings_.rules.relaxation = relaxation == "none"     ? CrispRules::Relaxation::none
+                                 : relaxation == "before" ? CrispRules::Relaxation::before
+                                                          : CrispRules::Relaxation::maintained;
+    settings_.rules.order = order == "weighted"          ? CrispRules::Order::weighted
+                            : order == "smallest-domain" ? CrispRules::Order::smallest_domain
+                                                         : CrispRules::Order::detectability;
+    settings_.rules.backjumping = options.boolean("backjumping");
+  }
+
+  LabelingOutcome solve(const LabelingProblem& problem, const LabelingRequest& request,
+                        Context& context) const override {
+    Deadline deadline(request.time_limit_s, context);  // the making of the tables counts too
+    check(problem);
+    if (problem.variables.empty()) return without_variables(problem);
+    return Run(settings_, problem, request, deadline).outcome();
+  }
+
+ private:
+  Settings settings_;
+};
+
+constexpr OptionSpec options[] = {
+    {"find", OptionType::text, "", "all", "first|all|count", "",
+     "the first consistent labelling; all, of which the k best are listed; or their number too"},
+    {"missing", OptionType::text, "", "only-if-needed", "only-if-needed|allowed|never", "",
+     "labellings with the fewest missing features (the dissertation); all; or those where nothing is missing"},
+    {"rank", OptionType::text, "", "violation", "violation|cost", "",
+     "consistent labellings are ranked by the sum of their violations, then by cost (the dissertation); or by cost"},
+    {"relaxation", OptionType::text, "", "maintained", "none|before|maintained", "",
+     "arc consistency: not at all (forward checking alone), before the search, or at every node"},
+    {"order", OptionType::text, "", "weighted", "weighted|smallest-domain|detectability", "",
+     "next variable: smallest domain over weight of failures, smallest domain, or the dissertation's fixed order"},
+    {"backjumping", OptionType::boolean, "", "true", "", "",
+     "go back at once to a decision that is to blame for a failure"},
+};
+
+}  // namespace
+
+TOPOSCOPE_PLUGIN(Labeler, Backtracking,
+                 {.id = "backtracking",
+                  .version = "1.0.0",
+                  .summary = "Tree search for labellings that meet all constraints: first, best, or how many",
+                  .citation = "Neal 1999, section 3.4.2",
+                  .options = options})
