@@ -90,8 +90,9 @@ void expect_as_listed(const LabelingProblem& problem, const Mode& mode) {
   constexpr std::size_t k_best = 7;
   for (const char* find : {"all", "count"}) {
     const LabelingOutcome outcome = solve(problem, mode, find, k_best);
-    if (std::string(find) == "count" || all.empty())
+    if (std::string(find) == "count" || all.empty()) {
       ASSERT_EQ(fact(outcome, "consistent labellings"), std::to_string(all.size()));
+    }
     if (all.empty()) {
       EXPECT_EQ(outcome.labelings.size(),
                 test::all_labelings(problem).empty() ? outcome.labelings.size() : all_missing(problem).size());
