@@ -128,19 +128,18 @@ TEST(Backtracking, AsListedByConsistent) {
   }
 }
 
-TEST(Backtracking, AllModesAgree) {
-  for (std::uint64_t seed = 1; seed <= 40; ++seed)
-    for (std::uint64_t mode = 0; mode < 540; mode += 7) {
+TEST(Backtracking, AllModesAgreeInDeeperTrees) {
+  const test::RandomKind kind{.variables = 8,
+                              .domain = 4,
+                              .arity = 3,
+                              .constraints = 14,
+                              .optional = 0.5,
+                              .forbidden_unary = 0.06,
+                              .forbidden_entries = 0.3};
+  for (std::uint64_t seed = 1; seed <= 30; ++seed)
+    for (std::uint64_t mode = seed % 7; mode < 540; mode += 7) {
       SCOPED_TRACE(seed);
-      expect_as_listed(test::random_problem({.variables = 5,
-                                             .domain = 4,
-                                             .arity = 3,
-                                             .constraints = 6,
-                                             .ties = seed % 2 == 0,
-                                             .optional = 0.7,
-                                             .forbidden_entries = 0.4},
-                                            seed),
-                       mode_of(mode));
+      expect_as_listed(test::random_problem(kind, seed), mode_of(mode));
       if (testing::Test::HasFailure()) return;
     }
 }
@@ -169,6 +168,114 @@ TEST(Backtracking, QueensAreCountedAndRelaxationVisitsFewerNodes) {
     for (const std::string relaxation : {"none", "before", "maintained"})
       EXPECT_LE(nodes[relaxation + "true"], nodes[relaxation + "false"]);
   }
+}
+
+// Figure 3.6 and Table 3.1: three features, four working sets, of which w4 is noise.
+LabelingProblem worked_example() {
+  LabelingProblem problem;
+  problem.candidate_count = 4;
+  for (Index w = 0; w < 4; ++w) test::set_conflict(problem, w, w);
+  for (const auto& [name, detectability] : {std::pair{"f1", 1.0}, {"f2", 0.75}, {"f3", 0.9}})
+    problem.variables.push_back({name, detectability, {0, 1, 2, 3}, {3, 0, 0, 0, 0}});
+  const auto relate = [&](const char* name, Index f, Index g, std::vector<std::pair<Index, Index>> pairs) {
+    LabelingConstraint constraint = test::empty_constraint(problem, {f, g});
+    constraint.name = name;
+    for (Index v = 1; v <= 4; ++v)
+      for (Index w = 1; w <= 4; ++w) constraint.violations[5 * v + w] = 2;
+    for (const auto& [v, w] : pairs) constraint.violations[5 * v + w] = constraint.violations[5 * w + v] = 0.5F;
+    problem.constraints.push_back(constraint);
+  };
+  relate("r1", 0, 2, {{1, 3}, {1, 4}, {3, 4}});
+  relate("r2", 0, 1, {{1, 2}, {2, 3}});
+  relate("r3", 1, 2, {{2, 3}, {3, 4}});
+  return problem;
+}
+
+TEST(Backtracking, WorkedExampleOfTheDissertation) {
+  for (const char* find : {"first", "all", "count"}) {
+    const LabelingOutcome outcome =
+        test::labeler("backtracking", {{"find", find}})->solve(worked_example(), {50, 60}, test::context());
+    ASSERT_EQ(outcome.labelings.size(), 1U);  // the only one without a missing feature
+    EXPECT_EQ(outcome.labelings[0].values, (std::vector<Index>{1, 2, 3}));
+    EXPECT_EQ(fact(outcome, "missing at least"), "0");
+  }
+}
+
+TEST(Backtracking, ListDoesNotDependOnTheOrderOfTheProblem) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const LabelingProblem problem = test::random_problem(test::random_kind(seed), seed);
+    LabelingProblem reversed = problem;
+    std::reverse(reversed.variables.begin(), reversed.variables.end());
+    std::reverse(reversed.constraints.begin(), reversed.constraints.end());
+    for (LabelingConstraint& constraint : reversed.constraints)
+      for (Index& v : constraint.scope) v = static_cast<Index>(problem.variables.size() - 1 - v);
+    const Mode mode = mode_of(seed);
+    LabelingOutcome one = solve(problem, mode, "count", 1000), other = solve(reversed, mode, "count", 1000);
+    EXPECT_EQ(fact(one, "consistent labellings"), fact(other, "consistent labellings"));
+    std::vector<std::vector<Index>> ones, others;
+    for (const Labeling& labeling : one.labelings) ones.push_back(labeling.values);
+    for (Labeling& labeling : other.labelings) {
+      std::reverse(labeling.values.begin(), labeling.values.end());
+      others.push_back(labeling.values);
+    }
+    std::sort(ones.begin(), ones.end());
+    std::sort(others.begin(), others.end());
+    EXPECT_EQ(ones, others);
+  }
+}
+
+TEST(Backtracking, ThreeQueensCannotAllStand) {
+  LabelingProblem problem = test::queens(3);
+  LabelingOutcome outcome = test::labeler("backtracking")->solve(problem, {}, test::context());
+  EXPECT_TRUE(outcome.labelings.empty());
+  EXPECT_TRUE(outcome.optimal);
+  EXPECT_EQ(fact(outcome, "consistent labellings"), "0");
+}
+
+LabelingProblem large_problem(int variables, int domain) {
+  return test::random_problem(
+      {.variables = variables, .domain = domain, .arity = 2, .constraints = variables * 10, .forbidden_entries = 0.3},
+      7);
+}
+
+TEST(Backtracking, StoppedKeepsAValidLabelling) {
+  const LabelingProblem problem = large_problem(40, 60);
+  for (const char* find : {"first", "all", "count"})
+    for (const double limit_s : {0.0, 1e-3, 0.01}) {
+      const LabelingOutcome outcome =
+          test::labeler("backtracking", {{"find", find}})->solve(problem, {10, limit_s}, test::context());
+      ASSERT_FALSE(outcome.labelings.empty());
+      EXPECT_TRUE(meets_exclusions(problem, outcome.labelings[0].values));
+      EXPECT_EQ(outcome.labelings[0].cost, cost_of(problem, outcome.labelings[0].values));
+      if (limit_s > 0) continue;
+      EXPECT_FALSE(outcome.optimal);
+      EXPECT_NE(outcome.guarantee.find("stopped"), std::string::npos) << outcome.guarantee;
+    }
+}
+
+TEST(Backtracking, CancelledReturnsAtOnce) {
+  RunContext context;
+  context.cancel();
+  const LabelingProblem problem = large_problem(20, 30);
+  const LabelingOutcome outcome = test::labeler("backtracking")->solve(problem, {}, context);
+  ASSERT_EQ(outcome.labelings.size(), 1U);
+  EXPECT_EQ(outcome.labelings[0].values, all_missing(problem)[0].values);
+  EXPECT_FALSE(outcome.optimal);
+}
+
+TEST(Backtracking, ProblemWithoutVariables) {
+  LabelingProblem problem;
+  problem.constant = 3;
+  const LabelingOutcome outcome = test::labeler("backtracking")->solve(problem, {}, test::context());
+  ASSERT_EQ(outcome.labelings.size(), 1U);
+  EXPECT_EQ(outcome.labelings[0].cost, 3);
+  EXPECT_EQ(outcome.lower_bound, 3);
+}
+
+TEST(Backtracking, RefusesTablesThatDoNotFit) {
+  LabelingProblem problem = worked_example();
+  problem.constraints[1].costs.pop_back();
+  EXPECT_ANY_THROW(test::labeler("backtracking")->solve(problem, {}, test::context()));
 }
 
 }  // namespace
