@@ -34,6 +34,7 @@ class Run {
   }
 
   LabelingOutcome outcome() {
+    const double least = sum_of_minima(problem_, deadline_);
     std::vector<Index> first;
     const CrispSearch::End end = find(first);
     LabelingOutcome outcome;
@@ -45,12 +46,13 @@ class Run {
       if (settings_.missing == Missing::only_if_needed) {
         fewest_proven_ = need_missing(first);
         rules_.missing_limit = count_missing(problem_, first);
-        outcome.facts.push_back({"missing at least", std::to_string(proven_missing_)});
+        outcome.facts.push_back(
+            {"fewest missing", (fewest_proven_ ? "" : "at most ") + std::to_string(rules_.missing_limit)});
       }
       list_labelings(first, outcome);
     }
     outcome.nodes = nodes_;
-    find_lower_bound(outcome);
+    find_lower_bound(least, outcome);
     return outcome;
   }
 
@@ -77,14 +79,15 @@ class Run {
     return end;
   }
 
-  // The fewest missing: `values` is improved until fewer are proven impossible. \return true when proven
+  // The fewest missing: fewer are asked for until there are none. \return true when proven
   bool need_missing(std::vector<Index>& values) {
-    for (proven_missing_ = 0; proven_missing_ < count_missing(problem_, values); ++proven_missing_) {
-      rules_.missing_limit = proven_missing_;
+    for (Index missing = count_missing(problem_, values); missing > 0; missing = count_missing(problem_, values)) {
+      rules_.missing_limit = missing - 1;
       std::vector<Index> fewer;
       const CrispSearch::End end = find(fewer);
-      if (!fewer.empty()) values = fewer;
       if (end == CrispSearch::End::out_of_time) return false;
+      if (end == CrispSearch::End::exhausted) return true;
+      values = fewer;
     }
     return true;
   }
@@ -140,11 +143,11 @@ class Run {
     if (request_.k_best > 1) text += all_proven ? "; alternatives proven" : "; alternatives may lack some";
   }
 
-  void find_lower_bound(LabelingOutcome& outcome) {
+  void find_lower_bound(double least, LabelingOutcome& outcome) const {
     // The best of the consistent labellings is the best of all only where the rules leave all of them in.
     const bool best_of_all = outcome.optimal && !outcome.labelings.empty() && settings_.missing == Missing::allowed &&
                              !settings_.by_violation && network_.by_cost_alone();
-    outcome.lower_bound = best_of_all ? outcome.labelings[0].cost : sum_of_minima(problem_, deadline_);
+    outcome.lower_bound = best_of_all ? outcome.labelings[0].cost : least;
   }
 
   const Settings& settings_;
@@ -154,7 +157,6 @@ class Run {
   CrispNetwork network_;
   CrispRules rules_;
   std::uint64_t nodes_ = 0;
-  Index proven_missing_ = 0;
   bool fewest_proven_ = true;
 };
 
