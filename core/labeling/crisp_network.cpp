@@ -180,9 +180,9 @@ void CrispNetwork::connect() {
 
 std::string CrispNetwork::closed_reason(Index variable, Index value) const {
   const LabelingVariable& v = problem_->variables[variable];
+  if (!(v.costs[value] < forbidden)) return "its cost is infinite";
   if (!present_.empty() && present_[variable] && v.missing(value)) return "it may not be missing";
   if (!open_.empty() && !open_[variable][value]) return "it is not open";
-  if (!(v.costs[value] < forbidden)) return "its cost is infinite";
   for (Index c = 0; c < unary_in_force_.size(); ++c) {
     const LabelingConstraint& constraint = problem_->constraints[c];
     if (unary_in_force_[c] && constraint.scope[0] == variable &&

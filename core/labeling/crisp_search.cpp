@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "toposcope/crisp_outcome.h"
+
 namespace toposcope {
 namespace {
 
@@ -222,6 +224,27 @@ void FirstFound::order(Index variable, std::vector<Index>& values) {
 bool FirstFound::solution(std::span<const Index> values) {
   found_.assign(values.begin(), values.end());
   return false;
+}
+
+FirstConsistent first_consistent(const CrispNetwork& network, CrispRules rules, bool fewest_missing,
+                                 Deadline& deadline) {
+  FirstConsistent made;
+  rules.missing_last = fewest_missing;
+  for (bool more = true; more;) {
+    FirstFound visitor(network.problem(), made.values);
+    CrispSearch search(network, rules, visitor, deadline);
+    const CrispSearch::End end = search.run();
+    made.nodes += search.nodes();
+    made.proven = end == CrispSearch::End::exhausted;
+    more = end == CrispSearch::End::ended_by_visitor && fewest_missing;
+    made.found = made.found || end == CrispSearch::End::ended_by_visitor;
+    if (!more) break;
+    const Index missing = count_missing(network.problem(), made.values);
+    made.proven = missing == 0;
+    more = missing > 0;
+    rules.missing_limit = missing - 1;
+  }
+  return made;
 }
 
 }  // namespace toposcope

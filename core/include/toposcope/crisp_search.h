@@ -92,6 +92,18 @@ class FirstFound final : public CrispVisitor {
   std::vector<Index>& found_;
 };
 
+struct FirstConsistent {
+  bool found = false;
+  bool proven = false;  ///< that there is none; or, with fewest missing, that none has fewer missing
+  std::vector<Index> values = {};
+  std::uint64_t nodes = 0;
+};
+
+/// The first consistent labelling, values of least unary cost first. With `fewest_missing`, *missing* comes last, and
+/// a labelling with fewer missing is asked for until there is none.
+FirstConsistent first_consistent(const CrispNetwork& network, CrispRules rules, bool fewest_missing,
+                                 Deadline& deadline);
+
 /// Orders values by their unary cost, ties by number.
 void order_by_cost(const LabelingVariable& variable, std::vector<Index>& values);
 

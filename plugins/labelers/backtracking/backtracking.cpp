@@ -35,21 +35,21 @@ class Run {
 
   LabelingOutcome outcome() {
     const double least = sum_of_minima(problem_, deadline_);
-    std::vector<Index> first;
-    const CrispSearch::End end = find(first);
+    const bool fewest = settings_.missing == Missing::only_if_needed;
+    const FirstConsistent first = first_consistent(network_, settings_.rules, fewest, deadline_);
+    nodes_ = first.nodes;
     LabelingOutcome outcome;
-    if (first.empty()) {
-      const bool none = end == CrispSearch::End::exhausted;
-      outcome = without_labeling(problem_, none);
-      if (none) outcome.facts.push_back({"consistent labellings", "0"});
+    if (!first.found) {
+      outcome = without_labeling(problem_, first.proven);
+      if (first.proven) outcome.facts.push_back({"consistent labellings", "0"});
     } else {
-      if (settings_.missing == Missing::only_if_needed) {
-        fewest_proven_ = need_missing(first);
-        rules_.missing_limit = count_missing(problem_, first);
+      if (fewest) {
+        fewest_proven_ = first.proven;
+        rules_.missing_limit = count_missing(problem_, first.values);
         outcome.facts.push_back(
-            {"fewest missing", (fewest_proven_ ? "" : "at most ") + std::to_string(rules_.missing_limit)});
+            {"fewest missing", (first.proven ? "" : "at most ") + std::to_string(rules_.missing_limit)});
       }
-      list_labelings(first, outcome);
+      list_labelings(first.values, outcome);
     }
     outcome.nodes = nodes_;
     find_lower_bound(least, outcome);
@@ -63,11 +63,6 @@ class Run {
     return made;
   }
 
-  CrispSearch::End find(std::vector<Index>& values) {
-    FirstFound first(problem_, values);
-    return search(first);
-  }
-
   CrispSearch::End search(CrispVisitor& visitor) {
     CrispSearch made(network_, rules_, visitor, deadline_);
     return run(made);
@@ -77,19 +72,6 @@ class Run {
     const CrispSearch::End end = made.run();
     nodes_ += made.nodes();
     return end;
-  }
-
-  // The fewest missing: fewer are asked for until there are none. \return true when proven
-  bool need_missing(std::vector<Index>& values) {
-    for (Index missing = count_missing(problem_, values); missing > 0; missing = count_missing(problem_, values)) {
-      rules_.missing_limit = missing - 1;
-      std::vector<Index> fewer;
-      const CrispSearch::End end = find(fewer);
-      if (end == CrispSearch::End::out_of_time) return false;
-      if (end == CrispSearch::End::exhausted) return true;
-      values = fewer;
-    }
-    return true;
   }
 
   void list_labelings(const std::vector<Index>& first, LabelingOutcome& outcome) {
