@@ -66,7 +66,7 @@ bool CrispNetwork::stop(Deadline& deadline, std::size_t work) {
 bool CrispNetwork::allows(const LabelingConstraint& constraint, std::size_t entry) {
   const bool finite = constraint.costs[entry] < forbidden;
   const bool met = satisfied(constraint, entry);
-  if (finite && !met) by_cost_alone_ = false;
+  by_cost_alone_ &= met || !finite;
   return finite && met;
 }
 
@@ -91,7 +91,9 @@ Index CrispNetwork::pair_of(Index a, Index b) {
   bits_.resize(backward + domain(pair.second) * words(pair.first), 0);
   const auto fill = [&](std::size_t rows, Index from, Index to) {
     for (Index value = 0; value < domain(from); ++value)
-      for (Index other = 0; other < domain(to); ++other) set_bit(bits_.data() + rows + value * words(to), other);
+      for (std::size_t w = 0; w < words(to); ++w, ++rows)
+        bits_[rows] =
+            w + 1 < words(to) || domain(to) % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (domain(to) % 64)) - 1;
   };
   fill(forward, pair.first, pair.second);
   fill(backward, pair.second, pair.first);
@@ -119,22 +121,34 @@ void CrispNetwork::add_binary(Index c, Deadline& deadline) {
 
 void CrispNetwork::add_exclusions(const CrispPart& part, Deadline& deadline) {
   const std::size_t n = problem_->variables.size();
-  for (Index x = 0; x < n; ++x) {
-    if (problem_->variables[x].candidates.empty()) continue;
-    for (Index y = x + 1; y < n; ++y) {
-      if (problem_->variables[y].candidates.empty() || !in_force(part.exclusions, exclusion_index(n, x, y))) continue;
-      for (Index a = 0; a < domain(x); ++a) {
-        for (Index b = 0; b < domain(y); ++b) {
-          if (!excluded(*problem_, x, a, y, b)) continue;
+  struct Use {
+    Index variable, value;
+  };
+  std::vector<std::vector<Use>> uses(problem_->candidate_count);  // of each candidate
+  for (Index v = 0; v < n; ++v)
+    for (Index value = 0; value < domain(v); ++value) {
+      const Index candidate = problem_->variables[v].candidate(value);
+      if (candidate != no_candidate) uses[candidate].push_back({v, value});
+    }
+  for (Index x = 0; x < n; ++x)
+    for (Index a = 0; a < domain(x); ++a) {
+      const Index candidate = problem_->variables[x].candidate(a);
+      if (candidate == no_candidate) continue;
+      const std::size_t row = problem_->conflict_words();
+      std::size_t work = row;
+      for_each_value({problem_->conflict_bits.data() + candidate * row, row}, [&](Index rival) {
+        for (const Use& use : uses[rival]) {
+          const Index y = use.variable;
+          ++work;
+          if (y <= x || !in_force(part.exclusions, part.exclusions.empty() ? 0 : exclusion_index(n, x, y))) continue;
           const Index at = pair_of(x, y);
           pairs_[at].exclusion = true;
-          clear_bit(bits_.data() + pair_rows_[at].first + a * words(y), b);
-          clear_bit(bits_.data() + pair_rows_[at].second + b * words(x), a);
+          clear_bit(bits_.data() + pair_rows_[at].first + a * words(y), use.value);
+          clear_bit(bits_.data() + pair_rows_[at].second + use.value * words(x), a);
         }
-        if (stop(deadline, domain(y))) return;
-      }
+      });
+      if (stop(deadline, work)) return;
     }
-  }
 }
 
 void CrispNetwork::add_table(Index c, Deadline& deadline) {

@@ -12,9 +12,12 @@ double sum_of_minima(const LabelingProblem& problem, Deadline& deadline) {
     sum += *std::min_element(variable.costs.begin(), variable.costs.end());
   for (const LabelingConstraint& constraint : problem.constraints) {
     double least = forbidden;
-    for (std::size_t entry = 0; entry < constraint.costs.size(); ++entry) {
-      if (entry % chunk == 0 && deadline.reached()) return -forbidden;
-      least = std::min(least, constraint.costs[entry]);
+    const std::size_t entries = constraint.costs.size();
+    for (std::size_t first = 0; first < entries; first += chunk) {
+      if (deadline.reached()) return -forbidden;
+      const double* cost = constraint.costs.data();
+      for (std::size_t entry = first; entry < std::min(entries, first + chunk); ++entry)
+        least = cost[entry] < least ? cost[entry] : least;
     }
     sum += least;
   }
