@@ -2,6 +2,7 @@
 // Backtracking tree search for labellings that meet all constraints (dissertation 3.4.2, category 1).
 
 #include "ranking.h"
+#include "toposcope/conflict_set.h"
 #include "toposcope/crisp_outcome.h"
 #include "toposcope/plugin.h"
 
@@ -23,8 +24,10 @@ struct Settings {
 // One run over one problem.
 class Run {
  public:
-  Run(const Settings& settings, const LabelingProblem& problem, const LabelingRequest& request, Deadline& deadline)
+  Run(const Settings& settings, const LabelingProblem& problem, const LabelingRequest& request, Deadline& deadline,
+      const Context& context)
       : settings_(settings),
+        context_(context),
         problem_(problem),
         request_(request),
         deadline_(deadline),
@@ -41,7 +44,10 @@ class Run {
     LabelingOutcome outcome;
     if (!first.found) {
       outcome = without_labeling(problem_, first.proven);
-      if (first.proven) outcome.facts.push_back({"consistent labellings", "0"});
+      if (first.proven) {
+        outcome.facts.push_back({"consistent labellings", "0"});
+        tell_conflict(settings_.missing != Missing::never, outcome);
+      }
     } else {
       if (fewest) {
         fewest_proven_ = first.proven;
@@ -50,6 +56,7 @@ class Run {
             {"fewest missing", (first.proven ? "" : "at most ") + std::to_string(rules_.missing_limit)});
       }
       list_labelings(first.values, outcome);
+      if (fewest && first.proven && rules_.missing_limit > 0) tell_conflict(false, outcome);
     }
     outcome.nodes = nodes_;
     find_lower_bound(least, outcome);
@@ -61,6 +68,10 @@ class Run {
     CrispPart made;
     if (settings_.missing == Missing::never) made.present.assign(problem_.variables.size(), true);
     return made;
+  }
+
+  void tell_conflict(bool missing_allowed, LabelingOutcome& outcome) const {
+    add_conflict_fact(problem_, {.missing_allowed = missing_allowed}, request_, deadline_, context_, outcome);
   }
 
   CrispSearch::End search(CrispVisitor& visitor) {
@@ -133,6 +144,7 @@ class Run {
   }
 
   const Settings& settings_;
+  const Context& context_;
   const LabelingProblem& problem_;
   const LabelingRequest& request_;
   Deadline& deadline_;
@@ -166,7 +178,7 @@ class Backtracking final : public Labeler {
     Deadline deadline(request.time_limit_s, context);  // the making of the tables counts too
     check(problem);
     if (problem.variables.empty()) return without_variables(problem);
-    return Run(settings_, problem, request, deadline).outcome();
+    return Run(settings_, problem, request, deadline, context).outcome();
   }
 
  private:

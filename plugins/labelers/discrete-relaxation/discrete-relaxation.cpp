@@ -2,6 +2,7 @@
 // Discrete relaxation: strikes from each domain what cannot stand with anything left in another (dissertation 3.4.2).
 
 #include "reasons.h"
+#include "toposcope/conflict_set.h"
 #include "toposcope/crisp_outcome.h"
 #include "toposcope/crisp_search.h"
 #include "toposcope/plugin.h"
@@ -24,7 +25,7 @@ class Run {
         deadline_(deadline),
         network_(problem, deadline, part(missing != Missing::allowed)) {}
 
-  LabelingOutcome outcome() {
+  LabelingOutcome outcome(const LabelingRequest& request, const Context& context) {
     const double least = sum_of_minima(problem_, deadline_);
     CrispDomains domains(network_, deadline_);
     const bool open = network_.complete() && domains.relax();
@@ -35,6 +36,9 @@ class Run {
       outcome.fallen = Reasons(domains).all();
       tell_domains(domains, outcome);
     }
+    if (inconsistent_)
+      add_conflict_fact(problem_, {.missing_allowed = missing_ == Missing::allowed}, request, deadline_, context,
+                        outcome);
     return outcome;
   }
 
@@ -59,6 +63,7 @@ class Run {
     const std::string of = missing_ == Missing::allowed ? "" : " with nothing missing";
     if (!wiped_out && values.size() == network_.variables())
       return labelled(values, true, "arc consistency leaves one labelling" + of);
+    inconsistent_ = wiped_out;
     if (!search_) {
       LabelingOutcome outcome = without_labeling(problem_, wiped_out && binding());
       outcome.guarantee = wiped_out ? "arc consistency proves that there is no consistent labelling" + of
@@ -69,6 +74,7 @@ class Run {
     first.proven = wiped_out;
     if (!wiped_out) first = first_consistent(network_, {}, false, deadline_);
     nodes_ += first.nodes;
+    inconsistent_ = !first.found && first.proven;
     if (first.found) return labelled(first.values, false, "first consistent labelling" + of);
     if (binding() || !first.proven) return without_labeling(problem_, first.proven);
     const CrispNetwork whole(problem_, deadline_);
@@ -110,6 +116,7 @@ class Run {
   Deadline& deadline_;
   CrispNetwork network_;
   std::uint64_t nodes_ = 0;
+  bool inconsistent_ = false;  ///< the relaxed problem is proven to be
 };
 
 class DiscreteRelaxation final : public Labeler {
@@ -125,7 +132,7 @@ class DiscreteRelaxation final : public Labeler {
     Deadline deadline(request.time_limit_s, context);
     check(problem);
     if (problem.variables.empty()) return without_variables(problem);
-    return Run(missing_, search_, problem, deadline).outcome();
+    return Run(missing_, search_, problem, deadline).outcome(request, context);
   }
 
  private:

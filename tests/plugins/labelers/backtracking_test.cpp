@@ -233,6 +233,26 @@ TEST(Backtracking, ThreeQueensCannotAllStand) {
   EXPECT_TRUE(outcome.labelings.empty());
   EXPECT_TRUE(outcome.optimal);
   EXPECT_EQ(fact(outcome, "consistent labellings"), "0");
+  EXPECT_EQ(fact(outcome, "smallest conflicting set"), "'rows 0 and 1', 'rows 0 and 2' and 'rows 1 and 2'");
+}
+
+TEST(Backtracking, TellsWhyAFeatureMustBeMissing) {
+  LabelingProblem problem = worked_example();
+  problem.constraints[0].violations[5 * 1 + 3] = 2;  // f1 = w1, f3 = w3 no longer meet r1
+  for (const char* id : {"backtracking", "discrete-relaxation"}) {
+    const LabelingOutcome outcome = test::labeler(id)->solve(problem, {}, test::context());
+    EXPECT_EQ(fact(outcome, "smallest conflicting set"), "'r1', 'r2' and 'r3'");
+    EXPECT_EQ(std::count(outcome.labelings[0].values.begin(), outcome.labelings[0].values.end(), Index{0}), 1);
+  }
+}
+
+TEST(Backtracking, DomainsOverSixtyFourValues) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const LabelingProblem problem = test::random_problem(
+        {.variables = 3, .domain = 150, .arity = 3, .constraints = 4, .optional = 0.5, .forbidden_entries = 0.7}, seed);
+    for (std::uint64_t mode = 0; mode < 18; mode += 5) expect_as_listed(problem, mode_of(mode));
+  }
 }
 
 LabelingProblem large_problem(int variables, int domain) {
