@@ -16,6 +16,7 @@ class Finder {
   Finder(const LabelingProblem& problem, const ConflictQuestion& question, Deadline& deadline)
       : problem_(problem), question_(question), deadline_(deadline) {
     const std::size_t n = problem.variables.size();
+    part_.exclusions_apart = true;
     if (!question.missing_allowed) {
       part_.present.assign(n, true);
       for (std::size_t v = 0; v < question.fixed.size(); ++v)  // a fixed one may be fixed to *missing*
@@ -170,8 +171,7 @@ class Finder {
     if (item.constraint == no_candidate)
       return !excluded(problem_, item.first, values_[item.first], item.second, values_[item.second]);
     const LabelingConstraint& constraint = problem_.constraints[item.constraint];
-    const std::size_t entry = table_entry(problem_, constraint, values_);
-    return constraint.costs[entry] < forbidden && satisfied(constraint, entry);
+    return allowed_apart(problem_, constraint, table_entry(problem_, constraint, values_));
   }
 
   const LabelingProblem& problem_;

@@ -22,8 +22,26 @@ void clear_bit(std::uint64_t* words, Index bit) {
 
 }  // namespace
 
+bool allowed_apart(const LabelingProblem& problem, const LabelingConstraint& constraint, std::size_t entry) {
+  if (allowed(constraint, entry)) return true;
+  const std::vector<Index>& scope = constraint.scope;
+  std::size_t rest = entry;
+  for (std::size_t k = scope.size(); k-- > 0;) {
+    const auto value = static_cast<Index>(rest % problem.variables[scope[k]].domain());
+    rest /= problem.variables[scope[k]].domain();
+    std::size_t others = rest;
+    for (std::size_t j = k; j-- > 0;) {
+      const Index domain = problem.variables[scope[j]].domain();
+      if (excluded(problem, scope[k], value, scope[j], static_cast<Index>(others % domain))) return true;
+      others /= domain;
+    }
+  }
+  return false;
+}
+
 CrispNetwork::CrispNetwork(const LabelingProblem& problem, Deadline& deadline, const CrispPart& part)
     : problem_(&problem),
+      exclusions_apart_(part.exclusions_apart),
       arcs_(problem.variables.size()),
       tables_of_(problem.variables.size()),
       unary_in_force_(problem.constraints.size(), false),
@@ -67,7 +85,7 @@ bool CrispNetwork::allows(const LabelingConstraint& constraint, std::size_t entr
   const bool finite = constraint.costs[entry] < forbidden;
   const bool met = satisfied(constraint, entry);
   by_cost_alone_ &= met || !finite;
-  return finite && met;
+  return (finite && met) || (exclusions_apart_ && allowed_apart(*problem_, constraint, entry));
 }
 
 void CrispNetwork::add_unary(Index c) {
@@ -199,8 +217,7 @@ std::string CrispNetwork::closed_reason(Index variable, Index value) const {
   if (!open_.empty() && !open_[variable][value]) return "it is not open";
   for (Index c = 0; c < unary_in_force_.size(); ++c) {
     const LabelingConstraint& constraint = problem_->constraints[c];
-    if (unary_in_force_[c] && constraint.scope[0] == variable &&
-        !(satisfied(constraint, value) && constraint.costs[value] < forbidden))
+    if (unary_in_force_[c] && constraint.scope[0] == variable && !allowed(constraint, value))
       return "'" + constraint.name + "' forbids it";
   }
   return "";

@@ -38,7 +38,9 @@ struct ConflictSet {
 /// The smallest conflicting set, by implicit hitting sets: a set of items that hits the complement of every set that
 /// can be met is tried; where it can be met, what cannot be added to it is one more complement to hit (Ignatiev,
 /// Previti, Liffiton and Marques-Silva 2015). Values of infinite cost are out beforehand: where no item is needed the
-/// set is empty. \pre `check(problem)`
+/// set is empty. A constraint is not blamed for candidates that exclude each other (`allowed_apart`).
+///
+/// \pre `check(problem)`
 ConflictSet smallest_conflict(const LabelingProblem& problem, const ConflictQuestion& question, Deadline& deadline);
 
 /// "'r1', 'r4' and the exclusion of 'rim' and 'bottom'"

@@ -21,7 +21,17 @@ struct CrispPart {
   std::vector<bool> exclusions = {};         ///< by exclusion_index
   std::vector<std::vector<bool>> open = {};  ///< per variable, per value
   std::vector<bool> present = {};            ///< per variable: may not be missing
+  bool exclusions_apart = false;             ///< constraints allow what an exclusion forbids (see `allowed_apart`)
 };
+
+/// True where the crisp problem's constraint lets the entry of its tables be: it is satisfied and its cost is finite.
+inline bool allowed(const LabelingConstraint& constraint, std::size_t entry) {
+  return constraint.costs[entry] < forbidden && satisfied(constraint, entry);
+}
+
+/// The same, but an entry whose candidates exclude each other is left to their exclusion: tables of meshes forbid it as
+/// well, and the constraint is not to be blamed for that.
+bool allowed_apart(const LabelingProblem& problem, const LabelingConstraint& constraint, std::size_t entry);
 
 /// Position of a pair of variables, first < second, among all pairs of n variables.
 inline std::size_t exclusion_index(std::size_t n, Index first, Index second) {
@@ -101,7 +111,7 @@ class CrispNetwork {
   bool stop(Deadline& deadline, std::size_t work);
 
   const LabelingProblem* problem_;
-  bool complete_ = true, by_cost_alone_ = true;
+  bool complete_ = true, by_cost_alone_ = true, exclusions_apart_;
   std::vector<Index> offsets_;
   std::vector<std::size_t> word_offsets_;
   std::vector<std::uint64_t> initial_, bits_;

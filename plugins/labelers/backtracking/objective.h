@@ -98,10 +98,9 @@ class Objective {
       bool untested = false;
       for (std::size_t k = 0; k < digits.size(); ++k)
         untested = untested || problem.variables[part.scope[k]].missing(digits[k]);
-      const bool allowed = constraint.costs[entry] < forbidden && satisfied(constraint, entry);
-      part.table[entry] = !allowed     ? forbidden
-                          : violations ? counted_violation(constraint, untested, entry)
-                                       : constraint.costs[entry];
+      part.table[entry] = !allowed(constraint, entry) ? forbidden
+                          : violations                ? counted_violation(constraint, untested, entry)
+                                                      : constraint.costs[entry];
       ++entry;
     } while (next_entry(problem, constraint, digits));
     return true;

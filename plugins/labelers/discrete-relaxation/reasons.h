@@ -69,7 +69,7 @@ class Reasons {
         const Index first = constraint.scope[0] == other ? value : strike.value;
         const Index second = constraint.scope[0] == other ? strike.value : value;
         const std::size_t entry = first * network_.domain(constraint.scope[1]) + second;
-        return !(satisfied(constraint, entry) && constraint.costs[entry] < forbidden);
+        return !allowed_apart(problem_, constraint, entry);
       });
       if (told(static_cast<std::size_t>(denied), "'" + constraint.name + "'"))
         return sentence(other, left.size(), "meets '" + constraint.name + "' with it");

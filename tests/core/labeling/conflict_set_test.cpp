@@ -55,6 +55,8 @@ std::set<std::uint64_t> met_sets(const LabelingProblem& problem, const ConflictQ
           const LabelingConstraint& constraint = problem.constraints[item.constraint];
           const std::size_t entry = table_entry(problem, constraint, values);
           meets = constraint.costs[entry] < forbidden && satisfied(constraint, entry);
+          for (const Index v : constraint.scope)  // that is for their exclusion to say
+            for (const Index w : constraint.scope) meets = meets || excluded(problem, v, values[v], w, values[w]);
         }
         met |= std::uint64_t{meets} << k;
       }

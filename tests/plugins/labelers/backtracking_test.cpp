@@ -241,7 +241,8 @@ TEST(Backtracking, TellsWhyAFeatureMustBeMissing) {
   problem.constraints[0].violations[5 * 1 + 3] = 2;  // f1 = w1, f3 = w3 no longer meet r1
   for (const char* id : {"backtracking", "discrete-relaxation"}) {
     const LabelingOutcome outcome = test::labeler(id)->solve(problem, {}, test::context());
-    EXPECT_EQ(fact(outcome, "smallest conflicting set"), "'r1', 'r2' and 'r3'");
+    EXPECT_EQ(fact(outcome, "smallest conflicting set"),
+              "'r1', 'r2', 'r3', the exclusion of 'f1' and 'f2' and the exclusion of 'f1' and 'f3'");
     EXPECT_EQ(std::count(outcome.labelings[0].values.begin(), outcome.labelings[0].values.end(), Index{0}), 1);
   }
 }
