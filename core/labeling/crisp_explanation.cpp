@@ -55,15 +55,14 @@ void CrispDomains::trace_marks(VariableSet& decisions) {
       case StrikeCause::Kind::decision:
         decisions[strike.variable / 64] |= std::uint64_t{1} << (strike.variable % 64);
         break;
-      case StrikeCause::Kind::pair:
-        for (const CrispArc& arc : network_.arcs(strike.variable)) {
-          if (arc.pair != strike.cause.at) continue;
-          const std::size_t words = network_.words(arc.other);
-          for_each_value({network_.bits(arc.rows + strike.value * words), words},
-                         [&](Index support) { mark_value(arc.other, support, before); });
-          break;
-        }
+      case StrikeCause::Kind::pair: {
+        const CrispPair& pair = network_.pairs()[strike.cause.at];
+        const Index other = pair.other(strike.variable);
+        const std::size_t words = network_.words(other);
+        for_each_value({network_.bits(pair.rows(strike.variable) + strike.value * words), words},
+                       [&](Index support) { mark_value(other, support, before); });
         break;
+      }
       case StrikeCause::Kind::table:
         for (const Index v : network_.tables()[strike.cause.at].scope)
           if (v != strike.variable) mark_struck(v, before);

@@ -103,18 +103,17 @@ Index CrispNetwork::pair_of(Index a, Index b) {
   CrispPair& pair = pairs_.emplace_back();
   pair.first = key.first;
   pair.second = key.second;
-  const std::size_t forward = bits_.size();
-  const std::size_t backward = forward + domain(pair.first) * words(pair.second);
-  pair_rows_.emplace_back(forward, backward);
-  bits_.resize(backward + domain(pair.second) * words(pair.first), 0);
+  pair.from_first = bits_.size();
+  pair.from_second = pair.from_first + domain(pair.first) * words(pair.second);
+  bits_.resize(pair.from_second + domain(pair.second) * words(pair.first), 0);
   const auto fill = [&](std::size_t rows, Index from, Index to) {
     for (Index value = 0; value < domain(from); ++value)
       for (std::size_t w = 0; w < words(to); ++w, ++rows)
         bits_[rows] =
             w + 1 < words(to) || domain(to) % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (domain(to) % 64)) - 1;
   };
-  fill(forward, pair.first, pair.second);
-  fill(backward, pair.second, pair.first);
+  fill(pair.from_first, pair.first, pair.second);
+  fill(pair.from_second, pair.second, pair.first);
   return at->second;
 }
 
@@ -123,9 +122,8 @@ void CrispNetwork::add_binary(Index c, Deadline& deadline) {
   const Index x = constraint.scope[0], y = constraint.scope[1];
   const Index at = pair_of(x, y);
   pairs_[at].constraints.push_back(c);
-  const bool turned = pairs_[at].first != x;
-  std::uint64_t* from_x = bits_.data() + (turned ? pair_rows_[at].second : pair_rows_[at].first);
-  std::uint64_t* from_y = bits_.data() + (turned ? pair_rows_[at].first : pair_rows_[at].second);
+  std::uint64_t* from_x = bits_.data() + pairs_[at].rows(x);
+  std::uint64_t* from_y = bits_.data() + pairs_[at].rows(y);
   std::size_t entry = 0;
   for (Index a = 0; a < domain(x); ++a) {
     for (Index b = 0; b < domain(y); ++b, ++entry) {
@@ -161,8 +159,8 @@ void CrispNetwork::add_exclusions(const CrispPart& part, Deadline& deadline) {
           if (y <= x || !in_force(part.exclusions, part.exclusions.empty() ? 0 : exclusion_index(n, x, y))) continue;
           const Index at = pair_of(x, y);
           pairs_[at].exclusion = true;
-          clear_bit(bits_.data() + pair_rows_[at].first + a * words(y), use.value);
-          clear_bit(bits_.data() + pair_rows_[at].second + use.value * words(x), a);
+          clear_bit(bits_.data() + pairs_[at].from_first + a * words(y), use.value);
+          clear_bit(bits_.data() + pairs_[at].from_second + use.value * words(x), a);
         }
       });
       if (stop(deadline, work)) return;
@@ -195,10 +193,9 @@ void CrispNetwork::add_table(Index c, Deadline& deadline) {
 void CrispNetwork::connect() {
   for (Index p = 0; p < pairs_.size(); ++p) {
     const CrispPair& pair = pairs_[p];
-    const auto [forward, backward] = pair_rows_[p];
     const std::size_t first = residues_, second = first + domain(pair.first);
-    arcs_[pair.first].push_back({p, pair.second, forward, backward, first, second});
-    arcs_[pair.second].push_back({p, pair.first, backward, forward, second, first});
+    arcs_[pair.first].push_back({p, pair.second, pair.from_first, pair.from_second, first, second});
+    arcs_[pair.second].push_back({p, pair.first, pair.from_second, pair.from_first, second, first});
     residues_ = second + domain(pair.second);
   }
   for (Index t = 0; t < tables_.size(); ++t) {

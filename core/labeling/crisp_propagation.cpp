@@ -180,8 +180,7 @@ bool CrispDomains::relax() {
 // Strikes the values at the far end of an arc that have no support at this end.
 bool CrispDomains::revise(const CrispArc& arc) {
   const Index y = arc.other;
-  const Index x =
-      network_.pairs()[arc.pair].first == y ? network_.pairs()[arc.pair].second : network_.pairs()[arc.pair].first;
+  const Index x = network_.pairs()[arc.pair].other(y);
   const std::size_t words = network_.words(x);
   const std::uint64_t* supports = words_.data() + network_.word_offset(x);
   const StrikeCause cause{StrikeCause::Kind::pair, arc.pair};

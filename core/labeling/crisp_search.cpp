@@ -9,8 +9,6 @@
 namespace toposcope {
 namespace {
 
-constexpr std::uint64_t poll_nodes = 16;
-
 bool has(const VariableSet& set, Index variable) {
   return ((set[variable / 64] >> (variable % 64)) & 1U) != 0;
 }
@@ -177,7 +175,8 @@ bool CrispSearch::descend(std::size_t depth) {
   if (rules_.backjumping && listed < domains_.size(variable)) blame_all(depth);
   for (std::size_t k = 0; k < listed; ++k) {
     const Index value = children_[depth][k];
-    if (++nodes_ % poll_nodes == 0 && deadline_.reached()) {
+    ++nodes_;
+    if (deadline_.reached()) {
       end_ = End::out_of_time;
       return false;
     }

@@ -43,6 +43,9 @@ struct CrispPair {
   Index first = 0, second = 0;  ///< first < second
   std::vector<Index> constraints = {};
   bool exclusion = false;
+  std::size_t from_first = 0, from_second = 0;  ///< offsets in `bits`: per value of the one the allowed of the other
+  Index other(Index variable) const { return variable == first ? second : first; }
+  std::size_t rows(Index variable) const { return variable == first ? from_first : from_second; }
 };
 
 /// One direction of a pair, as its variable sees it.
@@ -116,7 +119,6 @@ class CrispNetwork {
   std::vector<std::size_t> word_offsets_;
   std::vector<std::uint64_t> initial_, bits_;
   std::vector<CrispPair> pairs_;
-  std::vector<std::pair<std::size_t, std::size_t>> pair_rows_;  ///< in `bits`, from the first and from the second
   std::map<std::pair<Index, Index>, Index> pair_index_;
   std::vector<CrispTable> tables_;
   std::vector<std::vector<CrispArc>> arcs_;

@@ -52,7 +52,7 @@ class Reasons {
   // The members of the pair that deny all that was left at the other end: one alone where one suffices.
   std::string of_pair(const Strike& strike, std::uint32_t at) const {
     const CrispPair& pair = network_.pairs()[strike.cause.at];
-    const Index other = pair.first == strike.variable ? pair.second : pair.first;
+    const Index other = pair.other(strike.variable);
     std::vector<Index> left;
     for (Index value = 0; value < network_.domain(other); ++value) {
       const std::uint32_t struck = domains_.struck_at(other, value);
