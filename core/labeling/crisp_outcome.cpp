@@ -44,6 +44,11 @@ LabelingOutcome without_variables(const LabelingProblem& problem) {
   return outcome;
 }
 
+bool any_optional(const LabelingProblem& problem) {
+  return std::any_of(problem.variables.begin(), problem.variables.end(),
+                     [](const LabelingVariable& variable) { return variable.optional; });
+}
+
 Index count_missing(const LabelingProblem& problem, std::span<const Index> values) {
   Index missing = 0;
   for (Index v = 0; v < values.size(); ++v) missing += problem.variables[v].missing(values[v]);

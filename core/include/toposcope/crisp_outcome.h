@@ -18,6 +18,9 @@ LabelingOutcome without_labeling(const LabelingProblem& problem, bool proven);
 /// The outcome of a problem without variables.
 LabelingOutcome without_variables(const LabelingProblem& problem);
 
+/// Whether a variable may be missing.
+bool any_optional(const LabelingProblem& problem);
+
 /// How many variables are missing.
 Index count_missing(const LabelingProblem& problem, std::span<const Index> values);
 

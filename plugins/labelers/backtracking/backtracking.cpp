@@ -44,7 +44,8 @@ class Run {
     LabelingOutcome outcome;
     if (!first.found) {
       outcome = without_labeling(problem_, first.proven);
-      if (first.proven) {
+      none_ = first.proven;
+      if (none_) {
         outcome.facts.push_back({"consistent labellings", "0"});
         tell_conflict(settings_.missing != Missing::never, outcome);
       }
@@ -137,10 +138,13 @@ class Run {
   }
 
   void find_lower_bound(double least, LabelingOutcome& outcome) const {
-    // The best of the consistent labellings is the best of all only where the rules leave all of them in.
+    // Where costs alone forbid, a proof that there is no consistent labelling is one that none has finite cost; and the
+    // best of the consistent ones is the best of all where the rules leave all of them in.
+    const bool none =
+        none_ && network_.by_cost_alone() && (settings_.missing != Missing::never || !any_optional(problem_));
     const bool best_of_all = outcome.optimal && !outcome.labelings.empty() && settings_.missing == Missing::allowed &&
                              !settings_.by_violation && network_.by_cost_alone();
-    outcome.lower_bound = best_of_all ? outcome.labelings[0].cost : least;
+    outcome.lower_bound = none ? forbidden : best_of_all ? outcome.labelings[0].cost : least;
   }
 
   const Settings& settings_;
@@ -152,6 +156,7 @@ class Run {
   CrispRules rules_;
   std::uint64_t nodes_ = 0;
   bool fewest_proven_ = true;
+  bool none_ = false;  ///< proven
 };
 
 class Backtracking final : public Labeler {

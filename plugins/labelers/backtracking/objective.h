@@ -124,17 +124,19 @@ class Objective {
         Part& part = parts[p];
         const Index first = *std::min_element(part.scope.begin(), part.scope.end(), by_rank);
         const std::size_t from = stride_of(part, last), to = stride_of(part, first);
-        const std::size_t from_domain = network.domain(last), to_domain = network.domain(first);
-        std::vector<double> least(to_domain, forbidden);
+        std::vector<double> least(network.domain(first), forbidden);
+        const auto of_last = [&](std::size_t entry) { return entry / from % network.domain(last); };
+        const auto of_first = [&](std::size_t entry) { return entry / to % least.size(); };
         for (std::size_t entry = 0; entry < part.table.size(); ++entry) {
           if (entry % poll_entries == 0 && deadline.reached()) return false;
-          part.table[entry] += share * own[entry / from % from_domain];
-          least[entry / to % to_domain] = std::min(least[entry / to % to_domain], part.table[entry]);
+          part.table[entry] += share * own[of_last(entry)];
+          double& low = least[of_first(entry)];
+          low = std::min(low, part.table[entry]);
         }
         double* target = unary.data() + network.offset(first);
-        for (std::size_t value = 0; value < to_domain; ++value) target[value] += least[value];
+        for (std::size_t value = 0; value < least.size(); ++value) target[value] += least[value];
         for (std::size_t entry = 0; entry < part.table.size(); ++entry)
-          if (least[entry / to % to_domain] < forbidden) part.table[entry] -= least[entry / to % to_domain];
+          if (least[of_first(entry)] < forbidden) part.table[entry] -= least[of_first(entry)];
       }
       for (std::size_t value = 0; value < network.domain(last); ++value)
         if (own[value] < forbidden) own[value] = 0;

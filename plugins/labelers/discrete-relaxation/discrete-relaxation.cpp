@@ -31,7 +31,7 @@ class Run {
     const bool open = network_.complete() && domains.relax();
     const bool stopped = deadline_.reached();
     LabelingOutcome outcome = label(domains, !stopped && !open, stopped);
-    outcome.lower_bound = least;
+    outcome.lower_bound = none_ && network_.by_cost_alone() ? forbidden : least;
     if (network_.complete()) {
       outcome.fallen = Reasons(domains).all();
       tell_domains(domains, outcome);
@@ -50,10 +50,7 @@ class Run {
   }
 
   // What is proven of the relaxed problem is proven under the rules: fewer than all are not allowed.
-  bool binding() const {
-    return missing_ != Missing::only_if_needed || std::none_of(problem_.variables.begin(), problem_.variables.end(),
-                                                               [](const LabelingVariable& v) { return v.optional; });
-  }
+  bool binding() const { return missing_ != Missing::only_if_needed || !any_optional(problem_); }
 
   LabelingOutcome label(const CrispDomains& domains, bool wiped_out, bool stopped) {
     if (stopped) return without_labeling(problem_, false);
@@ -64,6 +61,7 @@ class Run {
     if (!wiped_out && values.size() == network_.variables())
       return labelled(values, true, "arc consistency leaves one labelling" + of);
     inconsistent_ = wiped_out;
+    none_ = wiped_out && (missing_ == Missing::allowed || !any_optional(problem_));
     if (!search_) {
       LabelingOutcome outcome = without_labeling(problem_, wiped_out && binding());
       outcome.guarantee = wiped_out ? "arc consistency proves that there is no consistent labelling" + of
@@ -75,11 +73,13 @@ class Run {
     if (!wiped_out) first = first_consistent(network_, {}, false, deadline_);
     nodes_ += first.nodes;
     inconsistent_ = !first.found && first.proven;
+    none_ = inconsistent_ && (missing_ == Missing::allowed || !any_optional(problem_));
     if (first.found) return labelled(first.values, false, "first consistent labelling" + of);
     if (binding() || !first.proven) return without_labeling(problem_, first.proven);
     const CrispNetwork whole(problem_, deadline_);
     first = first_consistent(whole, {}, true, deadline_);
     nodes_ += first.nodes;
+    none_ = !first.found && first.proven;
     if (!first.found) return without_labeling(problem_, first.proven);
     return labelled(first.values, false,
                     std::string("none with nothing missing; first consistent labelling with ") +
@@ -117,6 +117,7 @@ class Run {
   CrispNetwork network_;
   std::uint64_t nodes_ = 0;
   bool inconsistent_ = false;  ///< the relaxed problem is proven to be
+  bool none_ = false;          ///< proven: no consistent labelling, with or without something missing
 };
 
 class DiscreteRelaxation final : public Labeler {

@@ -168,6 +168,8 @@ TEST(DiscreteRelaxation, LabelsWhereAConsistentLabellingExists) {
       if (!exists) {
         EXPECT_EQ(outcome.labelings.size(), all_missing(problem).size());
         EXPECT_EQ(outcome.optimal, outcome.labelings.empty());
+        const std::vector<Labeling> finite = test::all_labelings(problem);
+        EXPECT_LE(outcome.lower_bound, finite.empty() ? forbidden : finite[0].cost);
         continue;
       }
       ASSERT_EQ(outcome.labelings.size(), 1U);
