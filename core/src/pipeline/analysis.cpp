@@ -50,6 +50,17 @@ std::vector<std::vector<Index>> one_side(const ClassOutcome& solved, const std::
   return kept;
 }
 
+/// Of a labeler that sums nothing up: its list stands for all labellings, so that classes can be compared.
+double log_evidence_of(const LabelingOutcome& outcome) {
+  if (!std::isnan(outcome.log_evidence)) return outcome.log_evidence;
+  double least = forbidden;
+  for (const Labeling& labeling : outcome.labelings) least = std::min(least, labeling.cost);
+  if (!std::isfinite(least)) return -forbidden;
+  double sum = 0;
+  for (const Labeling& labeling : outcome.labelings) sum += std::exp(least - labeling.cost);
+  return std::log(sum) - least;
+}
+
 ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeatures& features,
                    const Stations& stations, const LabelingRequest& request, Context& context) {
   const auto run = [&] {
@@ -58,7 +69,7 @@ ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeat
     check_outcome(posed.problem, posed.outcome, stations.labeler_id);
   };
   run();
-  posed.log_evidence = posed.outcome.log_evidence;
+  posed.log_evidence = log_evidence_of(posed.outcome);
   const auto orbits = interchangeable_features(model, posed.features, posed.relationships, stations.relation_ordered,
                                                model.classes.empty());
   const auto kept = one_side(posed, orbits, features);

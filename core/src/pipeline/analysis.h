@@ -20,7 +20,8 @@ struct ClassOutcome {
   std::vector<Index> relationships;  ///< model relationship of each constraint
   LabelingProblem problem;           ///< interchangeable features told apart by the best labelling
   LabelingOutcome outcome;
-  double log_evidence = 0;  ///< over all labellings, before interchangeable features are told apart
+  double log_evidence = 0;  ///< over all labellings (those listed, where the labeler makes no sums), before
+                            ///< interchangeable features are told apart
   bool complete = false;    ///< every feature present, every relationship within tolerance
 };
 

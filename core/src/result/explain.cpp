@@ -135,6 +135,7 @@ class Explainer {
       report.reason = no_candidate(model_.features[model_feature], analysis_.features.of_feature[model_feature].count);
       return report;
     }
+    report.conflict = conflict_of_missing(posed_.problem, best_, v, context_);
     Labeling trial = best_;
     Index nearest = 0, in_conflict = 0;
     Price least{std::numeric_limits<std::size_t>::max(), 0};

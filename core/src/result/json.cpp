@@ -114,6 +114,9 @@ Json feature(const FeatureReport& report) {
     why["relations_failed"] = Json::array();
     for (const RelationReport& failed : report.missing.failed) why["relations_failed"].push_back(relation(failed));
   }
+  if (const auto& conflict = report.missing.conflict)
+    why["conflict"] = {
+        {"relations", conflict->relations}, {"exclusions", conflict->exclusions}, {"smallest", conflict->smallest}};
   object["why"] = std::move(why);
   return object;
 }

@@ -8,6 +8,7 @@
 
 #include "mesh/repair.h"
 #include "pipeline/analysis.h"
+#include "result/conflict.h"
 
 namespace toposcope {
 
@@ -27,9 +28,10 @@ struct RelationReport {
 /// Why a feature is missing.
 struct MissingReport {
   std::string reason;
-  std::optional<FittedShape> nearest;  ///< the candidate that would have cost least
-  double nearest_cost = 0;             ///< nats that labelling it would have added over leaving it missing
-  std::vector<RelationReport> failed;  ///< relationships that the nearest candidate breaks
+  std::optional<FittedShape> nearest;      ///< the candidate that would have cost least
+  double nearest_cost = 0;                 ///< nats that labelling it would have added over leaving it missing
+  std::vector<RelationReport> failed;      ///< relationships that the nearest candidate breaks
+  std::optional<ConflictReport> conflict;  ///< what forbids all candidates, not the nearest alone
 };
 
 struct FeatureReport {

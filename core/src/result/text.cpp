@@ -49,6 +49,7 @@ std::string to_text(const Result& result) {
     else
       text += fmt::format("  {:<14}{:<9}{:<6}  {}\n", report.name, "missing", probability(report.probability),
                           report.missing.reason);
+    if (report.missing.conflict) text += fmt::format("  {:<31}{}\n", "", in_words(*report.missing.conflict));
     for (const RelationReport& failed : report.missing.failed)
       text += failed.applicable ? fmt::format("  {:<31}{} {}: residual {:.4g} {}, tolerance {:.3g}\n", "", failed.name,
                                               failed.type, failed.residual, failed.unit, failed.tolerance)
