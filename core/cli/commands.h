@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,11 +27,21 @@ struct RunOptions : CommonOptions {
   std::vector<fs::path> meshes;
   std::string model;
   fs::path out;
+  fs::path save_problem;  ///< empty: not written
 };
 
 struct ClassifyOptions : CommonOptions {
   std::vector<fs::path> meshes;
   std::string models;
+};
+
+struct LabelOptions : CommonOptions {
+  fs::path problem;
+  fs::path save;  ///< empty: not written
+  std::size_t k_best = 1;
+  double within = std::numeric_limits<double>::infinity();
+  double time_limit_s = 60;
+  bool marginals = false;
 };
 
 struct PrepareOptions : CommonOptions {
@@ -65,6 +76,7 @@ struct SampleOptions : CommonOptions {
 
 /// Each returns the exit code; errors leave as exceptions (base/errors.h).
 int run(const RunOptions& options);
+int label(const LabelOptions& options);
 int classify(const ClassifyOptions& options);
 int prepare(const PrepareOptions& options);
 int model_check(const ModelOptions& options);

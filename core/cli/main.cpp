@@ -73,6 +73,30 @@ void add_prepare(CLI::App& app, PrepareOptions& options, int& code) {
   });
 }
 
+void add_label(CLI::App& app, LabelOptions& options, int& code) {
+  CLI::App* label_app = app.add_subcommand("label", "solve a labelling problem from a file");
+  label_app->add_option("problem", options.problem, "JSON, CFN, WCSP or UAI file")->required()->type_name("PROBLEM");
+  label_app->add_option("--labeler", options.labeler, "labeler; default: least-error")->type_name("ID");
+  label_app->add_option("--k-best", options.k_best, "how many labellings to list, the best first")
+      ->type_name("K")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1000000}))
+      ->capture_default_str();
+  label_app->add_option("--within", options.within, "leave out what costs more than the best by over T")
+      ->type_name("T")
+      ->check(CLI::NonNegativeNumber);
+  label_app->add_flag("--marginals", options.marginals, "the probability of every value");
+  label_app->add_option("--time-limit", options.time_limit_s, "seconds")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  label_app->add_option("--save-problem", options.save, "write the problem too, in the format of its extension")
+      ->type_name("FILE");
+  label_app->add_flag("--json", options.json, "print a JSON object");
+  label_app->add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
+  add_session(label_app, options);
+  label_app->callback([&] { code = label(options); });
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Finds, names and measures the features of a class of objects on triangle meshes.", "toposcope"};
   app.set_version_flag("--version", TOPOSCOPE_VERSION);
@@ -87,6 +111,9 @@ int dispatch(int argc, char** argv) {
   run_app->add_option("mesh", run_options.meshes, "PLY, OBJ, STL or OFF files")->required()->type_name("MESH...");
   run_app->add_option("--model", run_options.model, "name or file of the model")->required();
   run_app->add_option("--out", run_options.out, "write result.json and labels.ply to DIR/<mesh>/")->type_name("DIR");
+  run_app
+      ->add_option("--save-problem", run_options.save_problem, "write the labelling problem: .json, .cfn, .wcsp, .uai")
+      ->type_name("FILE");
   run_app->add_flag("--json", run_options.json, "print the results as JSON lines");
   add_common(run_app, run_options);
   run_app->callback([&] { code = run(run_options); });
@@ -102,6 +129,9 @@ int dispatch(int argc, char** argv) {
   classify_app->add_flag("--json", classify_options.json, "print a JSON object per mesh");
   add_common(classify_app, classify_options);
   classify_app->callback([&] { code = classify(classify_options); });
+
+  LabelOptions label_options;
+  add_label(app, label_options, code);
 
   PrepareOptions prepare_options;
   add_prepare(app, prepare_options, code);

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/errors.h"
+#include "commands.h"
+#include "pipeline/labeling_problem.h"
+#include "plugin/guard.h"
+#include "problem/problem_io.h"
+#include "session.h"
+#include "toposcope/labeling_tools.h"
+
+namespace toposcope::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::shared_ptr<const Labeler> make_labeler(const LabelOptions& options, const std::string& id, PluginHost& host) {
+  const PluginManifest& plugin = host.catalog().require(PluginKind::labelers, id, "--labeler");
+  std::vector<GivenOption> given;
+  for (const std::string& text : options.overrides) {
+    const std::size_t equals = text.find('=');
+    if (!text.starts_with("labeler.") || equals == text.npos)
+      throw UsageError("--set " + text + ": expected labeler.option=value");
+    given.push_back({text.substr(8, equals - 8), text.substr(equals + 1)});
+  }
+  return host.labeler(id, check_options(plugin.options, given, "--set: labeler '" + plugin.id + "'"));
+}
+
+std::string value_name(const LabelingVariable& variable, Index value) {
+  if (variable.missing(value)) return "missing";
+  return variable.value_names.empty() ? std::to_string(value) : variable.value_names[value];
+}
+
+ordered_json finite(double number) {
+  return std::isfinite(number) ? ordered_json(number) : ordered_json();
+}
+
+ordered_json values_of(const LabelingProblem& problem, const Labeling& labeling) {
+  ordered_json values;
+  for (Index v = 0; v < problem.variables.size(); ++v) {
+    const LabelingVariable& variable = problem.variables[v];
+    if (variable.value_names.empty())
+      values[variable.name] = labeling.values[v];
+    else
+      values[variable.name] = variable.value_names[labeling.values[v]];
+  }
+  return values;
+}
+
+std::string as_json(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& labeler,
+                    double time_ms) {
+  const bool found = !outcome.labelings.empty() && outcome.labelings[0].cost < forbidden;
+  ordered_json root = {{"problem", problem.name},
+                       {"labeler", labeler},
+                       {"labeling", found ? values_of(problem, outcome.labelings[0]) : ordered_json()},
+                       {"cost", found ? finite(outcome.labelings[0].cost) : ordered_json()},
+                       {"lower_bound", finite(outcome.lower_bound)},
+                       {"optimal", outcome.optimal},
+                       {"satisfiable", found             ? ordered_json(true)
+                                       : outcome.optimal ? ordered_json(false)
+                                                         : ordered_json()},
+                       {"posteriors", ordered_json()},
+                       {"log_evidence", finite(outcome.log_evidence)},
+                       {"nodes", outcome.nodes},
+                       {"time_ms", time_ms},
+                       {"guarantee", outcome.guarantee}};
+  for (Index v = 0; v < outcome.posteriors.size(); ++v)
+    root["posteriors"][problem.variables[v].name] = outcome.posteriors[v];
+  root["alternatives"] = ordered_json::array();
+  for (std::size_t k = 1; k < outcome.labelings.size(); ++k)
+    root["alternatives"].push_back(
+        {{"labeling", values_of(problem, outcome.labelings[k])}, {"cost", finite(outcome.labelings[k].cost)}});
+  root["facts"] = ordered_json::object();
+  for (const LabelingFact& fact : outcome.facts) root["facts"][fact.name] = fact.value;
+  root["fallen"] = ordered_json::array();
+  for (const FallenValue& fallen : outcome.fallen)
+    root["fallen"].push_back({{"variable", problem.variables[fallen.variable].name},
+                              {"value", value_name(problem.variables[fallen.variable], fallen.value)},
+                              {"reason", fallen.reason}});
+  return root.dump() + "\n";
+}
+
+std::string as_text(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& labeler,
+                    double time_ms) {
+  std::string text = fmt::format("{}: {} variables, {} constraints\n", problem.name, problem.variables.size(),
+                                 problem.constraints.size());
+  const bool found = !outcome.labelings.empty() && outcome.labelings[0].cost < forbidden;
+  std::size_t width = 8;
+  for (const LabelingVariable& variable : problem.variables) width = std::max(width, variable.name.size());
+  if (found)
+    for (Index v = 0; v < problem.variables.size(); ++v) {
+      const Index value = outcome.labelings[0].values[v];
+      text += fmt::format("  {:<{}}  {}", problem.variables[v].name, width, value_name(problem.variables[v], value));
+      if (!outcome.posteriors.empty()) text += fmt::format("  ({:.4f})", outcome.posteriors[v][value]);
+      text += "\n";
+    }
+  if (found)
+    text += fmt::format("cost         {:.10g}\n", outcome.labelings[0].cost);
+  else
+    text += outcome.optimal ? "no labelling is allowed\n" : "no labelling found\n";
+  if (found && !outcome.optimal && std::isfinite(outcome.lower_bound))
+    text += fmt::format("lower bound  {:.10g}, gap {:.4g}\n", outcome.lower_bound,
+                        outcome.labelings[0].cost - outcome.lower_bound);
+  if (!std::isnan(outcome.log_evidence)) text += fmt::format("log evidence {:.10g}\n", outcome.log_evidence);
+  for (std::size_t k = 1; k < outcome.labelings.size(); ++k) {
+    text += fmt::format("next best    {:.10g}:", outcome.labelings[k].cost);
+    for (Index v = 0; v < problem.variables.size(); ++v)
+      text += " " + value_name(problem.variables[v], outcome.labelings[k].values[v]);
+    text += "\n";
+  }
+  for (const LabelingFact& fact : outcome.facts) text += fmt::format("{}: {}\n", fact.name, fact.value);
+  for (const FallenValue& fallen : outcome.fallen)
+    text += fmt::format("fell: {} = {}: {}\n", problem.variables[fallen.variable].name,
+                        value_name(problem.variables[fallen.variable], fallen.value), fallen.reason);
+  return text + fmt::format("{}: {}; {} nodes, {:.1f} ms\n", labeler, outcome.guarantee, outcome.nodes, time_ms);
+}
+
+/// Labellings that cost the file's top or more are no solutions.
+void cut_at_top(LabelingOutcome& outcome, double top) {
+  if (!(top < forbidden)) return;
+  std::erase_if(outcome.labelings, [&](const Labeling& labeling) { return labeling.cost >= top; });
+  if (outcome.labelings.empty() && outcome.optimal) outcome.guarantee += "; none costs less than the file's top cost";
+}
+
+}  // namespace
+
+int label(const LabelOptions& options) {
+  Session session(options);
+  const ProblemFile file = read_problem(options.problem);
+  const LabelingProblem& problem = file.problem;
+  if (!options.save.empty()) write_problem(options.save, problem);
+  const std::string id = options.labeler.empty() ? "least-error" : options.labeler;
+  const auto solve = [&](const Labeler& labeler, const std::string& plugin) {
+    LabelingOutcome outcome = guard(plugin, [&] {
+      return labeler.solve(problem,
+                           {.k_best = options.k_best, .time_limit_s = options.time_limit_s, .within = options.within},
+                           session.context());
+    });
+    check_outcome(problem, outcome, plugin);
+    return outcome;
+  };
+  const auto labeler = make_labeler(options, id, session.host());
+  const auto start = std::chrono::steady_clock::now();
+  LabelingOutcome outcome = solve(*labeler, id);
+  const double time_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  cut_at_top(outcome, file.top);
+  if (options.marginals && outcome.posteriors.empty()) {
+    const PluginManifest& plugin = session.host().catalog().require(PluginKind::labelers, "posterior", "--marginals");
+    const LabelingOutcome sums =
+        solve(*session.host().labeler(plugin.id, check_options(plugin.options, {}, plugin.id)), plugin.id);
+    outcome.posteriors = sums.posteriors;
+    outcome.log_evidence = sums.log_evidence;
+    outcome.facts.push_back({"probabilities", sums.guarantee});
+  }
+  session.status("");
+  fmt::print("{}", options.json ? as_json(problem, outcome, id, time_ms) : as_text(problem, outcome, id, time_ms));
+  return session.context().cancelled() ? interrupted_exit_code : 0;
+}
+
+}  // namespace toposcope::cli
