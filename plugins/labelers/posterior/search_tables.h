@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// A factor graph made ready for depth-first search: variables in the order in which they enter the tree, every factor
+// cut into increments that only ever add to a lower bound of the cost.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "factors.h"
+#include "watch.h"
+
+namespace toposcope::posterior {
+
+/// What a factor adds to the values of one variable once the variables of its scope before it are assigned: the least
+/// that the factor can still cost, less what was counted already. Summed along a path the increments give the factor's
+/// cost, and at any node an exact lower bound of it.
+struct Increment {
+  Index depth = 0;                   ///< of the variable to which it is added
+  std::vector<Index> earlier;        ///< depths of the assigned variables of the scope
+  std::vector<std::size_t> strides;  ///< of these, in `table`
+  std::vector<double> table;         ///< rows over the values of the variable at `depth`
+
+  const double* row(const std::vector<Index>& at) const {
+    std::size_t offset = 0;
+    for (std::size_t k = 0; k < earlier.size(); ++k) offset += strides[k] * at[earlier[k]];
+    return table.data() + offset;
+  }
+};
+
+class SearchTables {
+ public:
+  /// \param search_order  variables of the graph, the first to be assigned first \throw OutOfTime
+  SearchTables(const FactorGraph& graph, std::vector<Index> search_order, Watch& watch)
+      : order(std::move(search_order)), after(order.size()), graph_(graph), watch_(watch) {
+    std::vector<Index> depth_of(order.size());
+    offsets.push_back(0);
+    for (Index depth = 0; depth < order.size(); ++depth) {
+      depth_of[order[depth]] = depth;
+      offsets.push_back(offsets.back() + graph.domain(order[depth]));
+    }
+    for (const Index v : order) root.insert(root.end(), graph.unary[v].begin(), graph.unary[v].end());
+    std::vector<std::vector<Ordered>> ending(order.size());  // by the last variable of the scope
+    for (const Factor& factor : graph.factors) {
+      Ordered ordered = in_search_order(factor, depth_of);
+      ending[ordered.scope.back()].push_back(std::move(ordered));
+    }
+    // From the last variable to the first: what its values cost is shared out among the factors that end at it, so that
+    // their minima know of it. That moves costs about without changing any labelling's.
+    for (Index depth = depths(); depth-- > 0;) {
+      const auto informed = std::count_if(ending[depth].begin(), ending[depth].end(),
+                                          [](const Ordered& ordered) { return ordered.graded; });
+      const std::size_t width = domain(depth);
+      double* own = root.data() + offsets[depth];
+      for (Ordered& ordered : ending[depth]) {
+        if (ordered.graded)
+          for (std::size_t entry = 0; entry < ordered.table.size(); entry += width) {
+            for (std::size_t v = 0; v < width; ++v) ordered.table[entry + v] += own[v] / static_cast<double>(informed);
+            watch_.poll(width);
+          }
+        add_increments(ordered.scope, std::move(ordered.table));
+      }
+      if (informed > 0)
+        for (std::size_t v = 0; v < width; ++v)
+          if (own[v] < forbidden) own[v] = 0;
+    }
+  }
+
+  Index depths() const { return static_cast<Index>(order.size()); }
+  std::size_t domain(Index depth) const { return offsets[depth + 1] - offsets[depth]; }
+
+  /// No labelling costs less, but for rounding.
+  double bound() const {
+    double sum = graph_.constant;
+    for (std::size_t depth = 0; depth < order.size(); ++depth)
+      sum += *std::min_element(root.data() + offsets[depth], root.data() + offsets[depth + 1]);
+    return sum;
+  }
+
+  std::vector<Index> order;
+  std::vector<std::size_t> offsets;           ///< of each variable's values in `root`, by depth
+  std::vector<double> root;                   ///< per variable in search order, per value: unary and first increments
+  std::vector<std::vector<Increment>> after;  ///< by depth of the variable whose assignment makes them due
+
+ private:
+  struct Ordered {
+    std::vector<Index> scope;  ///< depths, ascending
+    std::vector<double> table;
+    bool graded = false;  ///< false: it only forbids
+  };
+
+  Ordered in_search_order(const Factor& factor, const std::vector<Index>& depth_of) {
+    Ordered ordered;
+    for (const Index v : factor.scope) ordered.scope.push_back(depth_of[v]);
+    std::sort(ordered.scope.begin(), ordered.scope.end());
+    const std::size_t arity = ordered.scope.size();
+    std::vector<std::size_t> stride(arity, 1), digits(arity, 0);  // of the factor's k-th variable in our table
+    for (std::size_t k = 0; k < arity; ++k)
+      for (const Index depth : ordered.scope)
+        if (depth > depth_of[factor.scope[k]]) stride[k] *= domain(depth);
+    ordered.table.resize(factor.costs.size());
+    const std::size_t width = graph_.domain(factor.scope.back());
+    std::size_t at = 0;
+    for (std::size_t entry = 0; entry < factor.costs.size(); entry += width) {
+      for (std::size_t i = 0; i < width; ++i) {
+        const double cost = factor.costs[entry + i];
+        ordered.table[at + i * stride.back()] = cost;
+        ordered.graded = ordered.graded || (cost != 0 && cost < forbidden);
+      }
+      watch_.poll(2 * width);
+      for (std::size_t k = arity - 1; k-- > 0;) {
+        at += stride[k];
+        if (++digits[k] < graph_.domain(factor.scope[k])) break;
+        at -= stride[k] * digits[k];
+        digits[k] = 0;
+      }
+    }
+    return ordered;
+  }
+
+  // Minima over the last variable, the last two, ... and the differences between one such table and the next.
+  void add_increments(const std::vector<Index>& scope, std::vector<double> table) {
+    for (std::size_t k = scope.size(); k-- > 0;) {
+      const std::size_t width = domain(scope[k]);
+      if (k == 0) {
+        for (std::size_t v = 0; v < width; ++v) root[offsets[scope[0]] + v] += table[v];
+        return;
+      }
+      std::vector<double> least(table.size() / width);
+      for (std::size_t row = 0; row < least.size(); ++row) {
+        double* first = table.data() + row * width;
+        least[row] = *std::min_element(first, first + width);
+        if (least[row] < forbidden)  // else the value before is forbidden and the row never asked for
+          for (std::size_t v = 0; v < width; ++v) first[v] -= least[row];
+        watch_.poll(2 * width);
+      }
+      Increment increment;
+      increment.depth = scope[k];
+      increment.earlier.assign(scope.begin(), scope.begin() + static_cast<std::ptrdiff_t>(k));
+      increment.strides.assign(k, width);
+      for (std::size_t i = k - 1; i-- > 0;) increment.strides[i] = increment.strides[i + 1] * domain(scope[i + 1]);
+      increment.table = std::move(table);
+      after[scope[k - 1]].push_back(std::move(increment));
+      table = std::move(least);
+    }
+  }
+
+  const FactorGraph& graph_;
+  Watch& watch_;
+};
+
+}  // namespace toposcope::posterior
