@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// least-error beside toulbar2 on problems shaped like those of meshes: the table of docs/labelers.md.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <regex>
+
+#include "problem/problem_io.h"
+#include "support/planted_problems.h"
+#include "support/plugins.h"
+
+namespace {
+
+using namespace toposcope;
+
+/// toulbar2's own solving time in seconds, without reading; nothing where it did not prove an optimum.
+struct Rival {
+  std::optional<double> seconds, cost;
+};
+
+Rival toulbar2(const LabelingProblem& problem, double limit_s) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "toposcope_labeler_table.cfn";
+  write_problem(file, problem);
+  const std::string command = fmt::format("toulbar2 -timer={:.0f} '{}' 2>&1", limit_s, file.string());
+  Rival rival;
+  std::FILE* pipe = popen(command.c_str(), "r");
+  if (!pipe) return rival;
+  const std::regex optimum(R"(Optimum: (-?[0-9.]+) .* and ([0-9.e+-]+) seconds)");
+  char line[4096];
+  while (std::fgets(line, sizeof line, pipe)) {
+    std::cmatch match;
+    if (std::regex_search(line, match, optimum)) rival = {std::atof(match[2].first), std::atof(match[1].first)};
+  }
+  pclose(pipe);
+  std::filesystem::remove(file);
+  return rival;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+void row(const test::PlantedKind& kind, int seeds, double limit_s) {
+  std::vector<double> ours, theirs, gaps;
+  int proven = 0, rival_proven = 0, differ = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const LabelingProblem problem = test::planted_problem(kind, static_cast<std::uint64_t>(seed));
+    const auto start = std::chrono::steady_clock::now();
+    const LabelingOutcome outcome =
+        test::labeler("least-error")->solve(problem, {.k_best = 1, .time_limit_s = limit_s}, test::context());
+    ours.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    gaps.push_back(outcome.labelings[0].cost - outcome.lower_bound);
+    proven += outcome.optimal;
+    const Rival rival = toulbar2(problem, limit_s);
+    theirs.push_back(rival.seconds.value_or(limit_s));
+    rival_proven += rival.seconds.has_value();
+    differ += outcome.optimal && rival.cost && std::abs(*rival.cost - outcome.labelings[0].cost) > 1e-3;
+  }
+  fmt::print("| {} | {} x {} | {} of {} | {:.1f} | {:.1f} | {:.3g} | {} of {} | {:.0f} | {:.0f} | {} |\n",
+             kind.structured ? "planted" : "random", kind.features, kind.candidates, proven, seeds, 1e3 * median(ours),
+             1e3 * *std::max_element(ours.begin(), ours.end()), *std::max_element(gaps.begin(), gaps.end()),
+             rival_proven, seeds, 1e3 * median(theirs), 1e3 * *std::max_element(theirs.begin(), theirs.end()), differ);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"least-error and toulbar2 side by side on seeded problems"};
+  int seeds = 5;
+  double limit_s = 10;
+  app.add_option("--seeds", seeds, "problems of each kind")->capture_default_str();
+  app.add_option("--limit", limit_s, "seconds for each problem")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  fmt::print(
+      "| costs | features x candidates | proven | median ms | worst ms | worst gap | toulbar2 proven | median ms | "
+      "worst ms | optima that differ |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const bool structured : {true, false})
+    for (const auto& [features, candidates] : {std::pair<Index, Index>{8, 20}, {12, 50}, {20, 60}, {40, 60}})
+      row({.features = features, .candidates = candidates, .structured = structured}, seeds, limit_s);
+}
