@@ -11,6 +11,10 @@ double finite(double cost) {
   return cost < forbidden ? cost : 0;
 }
 
+double infinite(double cost) {
+  return cost < forbidden ? 0.0 : 1.0;
+}
+
 struct Scope {
   std::size_t base = 0;  ///< entry with the digits of the two places left at 0
   std::size_t own_stride = 1, other_stride = 1;
@@ -48,7 +52,7 @@ void ConditionalCosts::reset(std::span<const Index> values) {
   values_.assign(values.begin(), values.end());
   for (std::size_t p = 0; p < costs_.size(); ++p) {
     costs_[p] = finite(tables_.unary_[p]);
-    entries_[p] = tables_.unary_[p] == forbidden;
+    entries_[p] = infinite(tables_.unary_[p]);
   }
   std::fill(used_.begin(), used_.end(), 0);
   std::fill(users_.begin(), users_.end(), 0);
@@ -57,7 +61,7 @@ void ConditionalCosts::reset(std::span<const Index> values) {
   // Twice the exclusions, once from each side; entries with the constraints' own tables.
   for (Index v = 0; v < values_.size(); ++v) {
     cost_ += costs_[at(v, values_[v])];
-    broken_ += entries_[at(v, values_[v])];
+    broken_ += static_cast<std::int64_t>(entries_[at(v, values_[v])]);
     use(v, at(v, values_[v]), 1);
   }
   std::int64_t excluded_twice = 0;
@@ -74,7 +78,7 @@ void ConditionalCosts::reset(std::span<const Index> values) {
       for (Index a = 0; a < problem.variables[v].domain(); ++a) {
         const double cost = constraint.costs[scope.base + a * scope.own_stride];
         costs_[at(v, a)] += finite(cost);
-        entries_[at(v, a)] += cost == forbidden;
+        entries_[at(v, a)] += infinite(cost);
       }
     }
   }
@@ -120,7 +124,7 @@ void ConditionalCosts::move_wide(Index v, Index from, Index to) {
       for (Index a = 0; a < domain; ++a) {
         const double old_cost = before[a * scope.other_stride], new_cost = after[a * scope.other_stride];
         costs_[at(other, a)] += finite(new_cost) - finite(old_cost);
-        entries_[at(other, a)] += (new_cost == forbidden ? 1 : 0) - (old_cost == forbidden ? 1 : 0);
+        entries_[at(other, a)] += infinite(new_cost) - infinite(old_cost);
       }
     }
   }
@@ -140,10 +144,10 @@ void ConditionalCosts::assign(Index v, Index value) {
       for (std::size_t a = 0; a < domain; ++a) costs[a] += after[a] - before[a];
       continue;
     }
-    std::int32_t* entries = entries_.data() + first;
+    double* entries = entries_.data() + first;
     for (std::size_t a = 0; a < domain; ++a) {
       costs[a] += finite(after[a]) - finite(before[a]);
-      entries[a] += (after[a] == forbidden ? 1 : 0) - (before[a] == forbidden ? 1 : 0);
+      entries[a] += infinite(after[a]) - infinite(before[a]);
     }
   }
   move_wide(v, from, value);

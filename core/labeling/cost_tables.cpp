@@ -59,6 +59,7 @@ bool CostTables::read_constraints(Deadline& deadline) {
   for (Index v = 0; v + 1 < offsets_.size(); ++v) {
     for (std::size_t p = offsets_[v]; p < offsets_[v + 1]; ++p)
       if (unary_[p] < forbidden) allowed_.push_back(static_cast<std::uint32_t>(p));
+    if (allowed_.size() == allowed_offsets_.back()) lower_bound_ = forbidden;  // its costs together forbid every value
     allowed_offsets_.push_back(allowed_.size());
   }
   return true;

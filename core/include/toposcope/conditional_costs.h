@@ -26,7 +26,8 @@ class CostTables {
   /// Only then may a ConditionalCosts be made.
   bool complete() const { return complete_; }
   /// The constant, and the least costs of each variable and constraint, added in the order of `cost_of`: rounding is
-  /// monotone, so no labelling costs less, to the last bit. -infinity when stopped before all were read.
+  /// monotone, so no labelling costs less, to the last bit. -infinity when stopped before all were read; infinite where
+  /// a variable has no allowed value.
   double lower_bound() const { return lower_bound_; }
   /// More than the rounding of any sum of the finite costs.
   double slack() const { return slack_; }
@@ -104,7 +105,9 @@ class ConditionalCosts {
 
  private:
   std::size_t at(Index v, Index value) const { return tables_.offsets_[v] + value; }
-  std::int32_t broken_of(Index v, Index value) const { return entries_[at(v, value)] + excluders(v, value); }
+  std::int32_t broken_of(Index v, Index value) const {
+    return static_cast<std::int32_t>(entries_[at(v, value)]) + excluders(v, value);
+  }
   bool own_conflict(Index v, Index candidate) const;
   void use(Index v, std::size_t position, std::int32_t sign);
   void move_wide(Index v, Index from, Index to);
@@ -113,10 +116,11 @@ class ConditionalCosts {
   std::vector<Index> values_;
   double cost_ = 0;
   std::int64_t broken_ = 0;
-  std::vector<double> costs_;          ///< by position: its finite costs given the others
-  std::vector<std::int32_t> entries_;  ///< by position: its forbidden entries given the others
-  std::vector<std::int32_t> used_;     ///< by candidate: variables whose candidates conflict with it
-  std::vector<std::uint64_t> users_;   ///< by candidate: sum of those variables
+  std::vector<double> costs_;  ///< by position: its finite costs given the others
+  std::vector<double>
+      entries_;  ///< by position: its forbidden entries given the others, whole; of the costs' width, for speed
+  std::vector<std::int32_t> used_;    ///< by candidate: variables whose candidates conflict with it
+  std::vector<std::uint64_t> users_;  ///< by candidate: sum of those variables
 };
 
 /// Moves one variable after the other to its best value, fewest broken first, then least cost, until none improves:

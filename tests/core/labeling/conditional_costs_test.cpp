@@ -90,6 +90,15 @@ TEST(ConditionalCosts, BoundNeverAboveAnyLabelling) {
   EXPECT_GT(reached, 0);
 }
 
+TEST(ConditionalCosts, BoundIsInfiniteWhereAVariablesCostsTogetherForbidAll) {
+  RunContext context;
+  LabelingProblem problem;
+  problem.variables = {{.name = "a", .costs = {0, forbidden}, .optional = false}};
+  problem.constraints = {{"not the first", {0}, {forbidden, 0}}};
+  Deadline deadline(60, context);
+  EXPECT_EQ(CostTables(problem, deadline).lower_bound(), forbidden);
+}
+
 TEST(ConditionalCosts, DescentEndsWhereNoSingleChangeIsBetter) {
   RunContext context;
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
