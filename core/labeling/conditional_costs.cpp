@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "toposcope/conditional_costs.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toposcope {
+namespace {
+
+double finite(double cost) {
+  return cost < forbidden ? cost : 0;
+}
+
+double infinite(double cost) {
+  return cost < forbidden ? 0.0 : 1.0;
+}
+
+struct Scope {
+  std::size_t base = 0;  ///< entry with the digits of the two places left at 0
+  std::size_t own_stride = 1, other_stride = 1;
+};
+
+// Where in the table the other variables' values point, with two places left open.
+Scope open_places(const LabelingProblem& problem, const LabelingConstraint& constraint, std::span<const Index> values,
+                  std::size_t own, std::size_t other) {
+  Scope scope;
+  std::size_t stride = 1;
+  for (std::size_t k = constraint.scope.size(); k-- > 0;) {
+    if (k == own)
+      scope.own_stride = stride;
+    else if (k == other)
+      scope.other_stride = stride;
+    else
+      scope.base += stride * values[constraint.scope[k]];
+    stride *= problem.variables[constraint.scope[k]].domain();
+  }
+  return scope;
+}
+
+}  // namespace
+
+ConditionalCosts::ConditionalCosts(const CostTables& tables)
+    : tables_(tables),
+      values_(tables.problem().variables.size()),
+      costs_(tables.positions()),
+      entries_(tables.positions()),
+      used_(tables.problem().candidate_count),
+      users_(tables.problem().candidate_count) {}
+
+void ConditionalCosts::reset(std::span<const Index> values) {
+  const LabelingProblem& problem = tables_.problem_;
+  values_.assign(values.begin(), values.end());
+  for (std::size_t p = 0; p < costs_.size(); ++p) {
+    costs_[p] = finite(tables_.unary_[p]);
+    entries_[p] = infinite(tables_.unary_[p]);
+  }
+  std::fill(used_.begin(), used_.end(), 0);
+  std::fill(users_.begin(), users_.end(), 0);
+  cost_ = problem.constant;
+  broken_ = 0;
+  // Twice the exclusions, once from each side; entries with the constraints' own tables.
+  for (Index v = 0; v < values_.size(); ++v) {
+    cost_ += costs_[at(v, values_[v])];
+    broken_ += static_cast<std::int64_t>(entries_[at(v, values_[v])]);
+    use(v, at(v, values_[v]), 1);
+  }
+  std::int64_t excluded_twice = 0;
+  for (Index v = 0; v < values_.size(); ++v) excluded_twice += excluders(v, values_[v]);
+  broken_ += excluded_twice / 2;
+  for (const LabelingConstraint& constraint : problem.constraints) {
+    if (constraint.scope.size() < 2) continue;
+    const double now = constraint.costs[table_entry(problem, constraint, values_)];
+    cost_ += finite(now);
+    broken_ += now == forbidden;
+    for (std::size_t k = 0; k < constraint.scope.size(); ++k) {
+      const Index v = constraint.scope[k];
+      const Scope scope = open_places(problem, constraint, values_, k, k);
+      for (Index a = 0; a < problem.variables[v].domain(); ++a) {
+        const double cost = constraint.costs[scope.base + a * scope.own_stride];
+        costs_[at(v, a)] += finite(cost);
+        entries_[at(v, a)] += infinite(cost);
+      }
+    }
+  }
+}
+
+bool ConditionalCosts::own_conflict(Index v, Index candidate) const {
+  const Index own = tables_.candidates_[at(v, values_[v])];
+  return own != no_candidate && tables_.problem_.conflict(own, candidate);
+}
+
+std::int32_t ConditionalCosts::excluders(Index v, Index value) const {
+  const Index candidate = tables_.candidates_[at(v, value)];
+  if (candidate == no_candidate || used_[candidate] == 0) return 0;
+  return used_[candidate] - (own_conflict(v, candidate) ? 1 : 0);
+}
+
+Index ConditionalCosts::excluder(Index v, Index value) const {
+  const Index candidate = tables_.candidates_[at(v, value)];
+  return static_cast<Index>(users_[candidate] - (own_conflict(v, candidate) ? v : 0));
+}
+
+void ConditionalCosts::use(Index v, std::size_t position, std::int32_t sign) {
+  const Index candidate = tables_.candidates_[position];
+  if (candidate == no_candidate) return;
+  const std::uint64_t user = sign > 0 ? std::uint64_t{v} : std::uint64_t{0} - v;
+  for (const Index other : tables_.conflicts(candidate)) {
+    used_[other] += sign;
+    users_[other] += user;
+  }
+}
+
+void ConditionalCosts::move_wide(Index v, Index from, Index to) {
+  const LabelingProblem& problem = tables_.problem_;
+  for (const CostTables::Wide& wide : tables_.wide_[v]) {
+    const LabelingConstraint& constraint = problem.constraints[wide.constraint];
+    for (std::size_t k = 0; k < constraint.scope.size(); ++k) {
+      if (k == wide.place) continue;
+      const Index other = constraint.scope[k];
+      const Scope scope = open_places(problem, constraint, values_, wide.place, k);
+      const double* before = constraint.costs.data() + scope.base + from * scope.own_stride;
+      const double* after = constraint.costs.data() + scope.base + to * scope.own_stride;
+      const Index domain = problem.variables[other].domain();
+      for (Index a = 0; a < domain; ++a) {
+        const double old_cost = before[a * scope.other_stride], new_cost = after[a * scope.other_stride];
+        costs_[at(other, a)] += finite(new_cost) - finite(old_cost);
+        entries_[at(other, a)] += infinite(new_cost) - infinite(old_cost);
+      }
+    }
+  }
+}
+
+void ConditionalCosts::assign(Index v, Index value) {
+  const Index from = values_[v];
+  if (value == from) return;
+  cost_ += cost_change(v, value);
+  broken_ += broken_change(v, value);
+  for (const CostTables::Pair& pair : tables_.pairs_[v]) {
+    const std::size_t first = tables_.offsets_[pair.other], domain = tables_.offsets_[pair.other + 1] - first;
+    const double* before = pair.costs + from * domain;
+    const double* after = pair.costs + value * domain;
+    double* costs = costs_.data() + first;
+    if (!pair.forbids) {
+      for (std::size_t a = 0; a < domain; ++a) costs[a] += after[a] - before[a];
+      continue;
+    }
+    double* entries = entries_.data() + first;
+    for (std::size_t a = 0; a < domain; ++a) {
+      costs[a] += finite(after[a]) - finite(before[a]);
+      entries[a] += infinite(after[a]) - infinite(before[a]);
+    }
+  }
+  move_wide(v, from, value);
+  use(v, at(v, from), -1);
+  values_[v] = value;
+  use(v, at(v, value), 1);
+}
+
+bool descend(const CostTables& tables, ConditionalCosts& costs, Deadline& deadline) {
+  const auto variables = static_cast<Index>(tables.problem().variables.size());
+  Index unchanged = 0;  // variables in a row that had nothing better
+  for (Index v = 0; unchanged < variables; v = v + 1 < variables ? v + 1 : 0) {
+    if (deadline.reached()) return false;
+    Index best = costs.values()[v];
+    std::int32_t least_broken = 0;
+    double least = -tables.slack();
+    for (const std::uint32_t position : tables.allowed(v)) {
+      const auto value = static_cast<Index>(position - tables.offset(v));
+      const std::int32_t broken = costs.broken_change(v, value);
+      const double cost = costs.cost_change(v, value);
+      if (broken > least_broken || (broken == least_broken && cost >= least)) continue;
+      best = value;
+      least_broken = broken;
+      least = cost;
+    }
+    unchanged = best == costs.values()[v] ? unchanged + 1 : 1;
+    costs.assign(v, best);
+  }
+  return true;
+}
+
+void offer_neighbours(const CostTables& tables, const ConditionalCosts& costs, BestLabelings& best) {
+  const LabelingProblem& problem = tables.problem();
+  Labeling labeling{costs.values(), 0};
+  const auto offer = [&] {
+    labeling.cost = cost_of(problem, labeling.values);
+    best.offer(labeling);
+  };
+  if (costs.broken() == 0) offer();
+  for (const std::uint32_t position : tables.allowed()) {
+    const Index v = tables.owner(position);
+    const auto value = static_cast<Index>(position - tables.offset(v));
+    if (value == costs.values()[v] || costs.broken() + costs.broken_change(v, value) != 0) continue;
+    if (costs.cost() + costs.cost_change(v, value) > best.limit() + tables.slack()) continue;
+    labeling.values[v] = value;
+    offer();
+    labeling.values[v] = costs.values()[v];
+  }
+}
+
+}  // namespace toposcope

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// One run of simulated annealing: from a random labelling, through falling temperatures, to a local optimum.
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "schedule.h"
+
+namespace toposcope::annealing {
+
+class Run {
+ public:
+  Run(const CostTables& tables, const Schedule& schedule, std::uint64_t seed, std::size_t k_best, double within,
+      Deadline deadline)
+      : tables_(tables),
+        schedule_(schedule),
+        random_(seed),
+        deadline_(deadline),
+        costs_(tables),
+        k_best_(k_best),
+        best_(k_best, within) {}
+
+  void anneal(std::uint64_t sweeps) {
+    start(random_values(tables_, random_));
+    double penalty = schedule_.penalty;
+    // Where what is left breaks a constraint, again with dearer ones.
+    for (int reheat = 0; reheat <= reheats; ++reheat, penalty *= 2) {
+      cool(sweeps, penalty);
+      if (stopped_) return;
+      if (costs_.broken() == 0 || !best_.labelings().empty()) break;
+    }
+  }
+
+  BestLabelings& best() { return best_; }
+  std::uint64_t moves() const { return moves_; }
+  bool stopped() const { return stopped_; }
+
+ private:
+  static constexpr int reheats = 3;
+
+  void start(std::span<const Index> values) {
+    costs_.reset(values);
+    signature_ = 0;
+    for (Index v = 0; v < values.size(); ++v) signature_ ^= mix(tables_.offset(v) + values[v]);
+    offer();
+  }
+
+  void cool(std::uint64_t sweeps, double penalty) {
+    const double steps = static_cast<double>(std::max<std::uint64_t>(sweeps, 2) - 1);
+    for (std::uint64_t sweep = 0; sweep < sweeps && !stopped_ && !done(); ++sweep) {
+      const double part = static_cast<double>(sweep) / steps;
+      this->sweep(schedule_.start * std::pow(schedule_.end / schedule_.start, part), penalty);
+    }
+    finish();
+  }
+
+  bool done() const {
+    return best_.labelings().size() == k_best_ && best_.labelings().front().cost <= tables_.lower_bound();
+  }
+
+  // As many proposals as there are values.
+  void sweep(double temperature, double penalty) {
+    const std::span<const std::uint32_t> allowed = tables_.allowed();
+    for (std::size_t i = 0; i < allowed.size(); ++i) {
+      if ((i & 511U) == 0 && (stopped_ = deadline_.reached())) return;
+      const std::uint32_t position = allowed[random_.below(allowed.size())];
+      const Index v = tables_.owner(position);
+      const auto value = static_cast<Index>(position - tables_.offset(v));
+      if (value == costs_.values()[v]) continue;
+      const double change = costs_.cost_change(v, value) + penalty * costs_.broken_change(v, value);
+      if (accept(change, temperature)) {
+        move(v, value);
+        offer();
+      } else if (costs_.excluders(v, value) == 1) {
+        steal(v, value, temperature, penalty);
+      }
+    }
+  }
+
+  bool accept(double change, double temperature) {
+    if (change <= 0) return true;
+    // Beyond 40 temperatures the chance is below 1e-17.
+    return change < 40 * temperature && change <= -temperature * std::log(random_.positive());
+  }
+
+  void move(Index v, Index value) {
+    signature_ ^= mix(tables_.offset(v) + costs_.values()[v]) ^ mix(tables_.offset(v) + value);
+    costs_.assign(v, value);
+    ++moves_;
+  }
+
+  // Takes the candidate from the variable that has it, which then does the best it can.
+  void steal(Index v, Index value, double temperature, double penalty) {
+    const Index from = costs_.values()[v], loser = costs_.excluder(v, value);
+    const double change = costs_.cost_change(v, value) + penalty * (costs_.broken_change(v, value) - 1);
+    if (!accept(change, temperature)) return;
+    move(v, value);
+    Index best = costs_.values()[loser];
+    double least = forbidden;
+    for (const std::uint32_t position : tables_.allowed(loser)) {
+      const auto other = static_cast<Index>(position - tables_.offset(loser));
+      const double loss = costs_.cost_change(loser, other) + penalty * costs_.broken_change(loser, other);
+      if (other == costs_.values()[loser] || loss >= least) continue;
+      best = other;
+      least = loss;
+    }
+    // `change` left out that the exclusion is broken until the loser has moved.
+    if (least < forbidden && accept(change + penalty + least, temperature)) {
+      move(loser, best);
+      offer();
+    } else {
+      move(v, from);
+    }
+  }
+
+  // What may enter the list does, but for the labellings last seen.
+  void offer() {
+    if (costs_.broken() != 0 || costs_.cost() > best_.limit() + tables_.slack()) return;
+    std::uint64_t& seen = seen_[signature_ % seen_.size()];
+    if (seen == signature_) return;
+    seen = signature_;
+    offered_.values = costs_.values();
+    offered_.cost = cost_of(tables_.problem(), offered_.values);
+    best_.offer(offered_);
+  }
+
+  // Down to a local optimum, from the last labelling and from the best one, whose neighbours are looked at too.
+  void finish() {
+    settle();
+    if (best_.labelings().empty()) return;
+    const std::vector<Index> values = best_.labelings().front().values;
+    start(values);
+    settle();
+  }
+
+  void settle() {
+    if (!descend(tables_, costs_, deadline_)) stopped_ = true;
+    start(std::vector<Index>(costs_.values()));
+    offer_neighbours(tables_, costs_, best_);
+  }
+
+  const CostTables& tables_;
+  const Schedule schedule_;
+  Random random_;
+  Deadline deadline_;
+  ConditionalCosts costs_;
+  std::size_t k_best_;
+  BestLabelings best_;
+  Labeling offered_;
+  std::array<std::uint64_t, 1024> seen_{};
+  std::uint64_t signature_ = 0, moves_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace toposcope::annealing

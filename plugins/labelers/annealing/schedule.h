@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Random numbers that are the same with every standard library, and temperatures read off the problem's own costs.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "toposcope/conditional_costs.h"
+
+namespace toposcope::annealing {
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  /// \param n  below 2^32
+  std::size_t below(std::size_t n) { return static_cast<std::size_t>(((engine_() >> 32) * n) >> 32); }
+  /// In (0, 1].
+  double positive() { return static_cast<double>((engine_() >> 11) + 1) * 0x1p-53; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Steele, Lea and Flood's finaliser: nearby numbers become unrelated ones.
+inline std::uint64_t mix(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+/// \return values whose own costs are finite. \pre every variable has one
+inline std::vector<Index> random_values(const CostTables& tables, Random& random) {
+  std::vector<Index> values(tables.problem().variables.size());
+  for (Index v = 0; v < values.size(); ++v) {
+    const auto allowed = tables.allowed(v);
+    values[v] = static_cast<Index>(allowed[random.below(allowed.size())] - tables.offset(v));
+  }
+  return values;
+}
+
+struct Schedule {
+  double start = 1, end = 1;  ///< temperatures, in the unit of cost
+  double penalty = 1;         ///< what a broken constraint or exclusion counts, in the unit of cost
+};
+
+/// From a local optimum: the penalty is the most that one change could gain or lose by finite costs alone, the start
+/// temperature the mean of all changes for the worse, the end a fifth of the least gap to a second best value, taken
+/// over the quarter of the variables where it is least.
+inline Schedule make_schedule(const CostTables& tables, const ConditionalCosts& optimum) {
+  const auto variables = static_cast<Index>(tables.problem().variables.size());
+  Schedule schedule;
+  schedule.penalty = 0;
+  for (const std::uint32_t position : tables.allowed()) {
+    const Index v = tables.owner(position);
+    const double change = std::abs(optimum.cost_change(v, static_cast<Index>(position - tables.offset(v))));
+    schedule.penalty = std::max(schedule.penalty, change);
+  }
+  if (!(schedule.penalty > tables.slack())) schedule.penalty = 1;  // nothing but hard constraints
+  double sum = 0, count = 0;
+  std::vector<double> gaps;
+  for (Index v = 0; v < variables; ++v) {
+    double gap = forbidden;
+    for (const std::uint32_t position : tables.allowed(v)) {
+      const auto value = static_cast<Index>(position - tables.offset(v));
+      const double change = optimum.cost_change(v, value) + schedule.penalty * optimum.broken_change(v, value);
+      if (!(change > tables.slack())) continue;
+      sum += std::min(change, schedule.penalty);
+      ++count;
+      gap = std::min(gap, change);
+    }
+    if (gap < forbidden) gaps.push_back(gap);
+  }
+  if (gaps.empty()) return schedule;
+  schedule.start = sum / count;
+  const auto quarter = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 4);
+  std::nth_element(gaps.begin(), quarter, gaps.end());
+  schedule.end = std::min(schedule.start, *quarter / 5);
+  return schedule;
+}
+
+}  // namespace toposcope::annealing
