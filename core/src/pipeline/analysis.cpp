@@ -50,34 +50,56 @@ std::vector<std::vector<Index>> one_side(const ClassOutcome& solved, const std::
   return kept;
 }
 
-/// Of a labeler that sums nothing up: its list stands for all labellings, so that classes can be compared.
-double log_evidence_of(const LabelingOutcome& outcome) {
-  if (!std::isnan(outcome.log_evidence)) return outcome.log_evidence;
-  double least = forbidden;
-  for (const Labeling& labeling : outcome.labelings) least = std::min(least, labeling.cost);
-  if (!std::isfinite(least)) return -forbidden;
-  double sum = 0;
-  for (const Labeling& labeling : outcome.labelings) sum += std::exp(least - labeling.cost);
-  return std::log(sum) - least;
-}
+/// Solves a problem for its labellings and, where the pipeline says so, again for its probabilities.
+struct Solver {
+  const Stations& stations;
+  const LabelingRequest& request;
+  Context& context;
+  double marginals_ms = 0;
 
-ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeatures& features,
-                   const Stations& stations, const LabelingRequest& request, Context& context) {
-  const auto run = [&] {
-    posed.outcome =
-        guard(stations.labeler_id, [&] { return stations.labeler->solve(posed.problem, request, context); });
-    check_outcome(posed.problem, posed.outcome, stations.labeler_id);
-  };
-  run();
-  posed.log_evidence = log_evidence_of(posed.outcome);
-  const auto orbits = interchangeable_features(model, posed.features, posed.relationships, stations.relation_ordered,
-                                               model.classes.empty());
+  void solve(ClassOutcome& posed) {
+    posed.outcome = outcome_of(posed.problem, *stations.labeler, stations.labeler_id, request);
+    LabelingOutcome& outcome = posed.outcome;
+    const std::string* maker = &stations.labeler_id;
+    std::string made = outcome.guarantee;
+    if (stations.marginals) {
+      Stopwatch watch;
+      LabelingRequest sums = request;
+      sums.k_best = 1;
+      LabelingOutcome marginals = outcome_of(posed.problem, *stations.marginals, stations.marginals_id, sums);
+      outcome.posteriors = std::move(marginals.posteriors);
+      outcome.log_evidence = marginals.log_evidence;
+      maker = &stations.marginals_id;
+      made = std::move(marginals.guarantee);
+      marginals_ms += watch.lap_ms();
+    }
+    // Why there are none is worth a line where they were asked for.
+    const bool any = !outcome.posteriors.empty() || !std::isnan(outcome.log_evidence);
+    posed.probabilities = any || stations.marginals ? *maker + ": " + made : "";
+  }
+
+ private:
+  LabelingOutcome outcome_of(const LabelingProblem& problem, const Labeler& labeler, const std::string& id,
+                             const LabelingRequest& asked) {
+    LabelingOutcome outcome = guard(id, [&] { return labeler.solve(problem, asked, context); });
+    check_outcome(problem, outcome, id);
+    return outcome;
+  }
+};
+
+ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeatures& features, Solver& solver) {
+  solver.solve(posed);
+  posed.log_evidence = posed.outcome.log_evidence;
+  posed.least_cost = forbidden;
+  for (const Labeling& labeling : posed.outcome.labelings) posed.least_cost = std::min(posed.least_cost, labeling.cost);
+  const auto orbits = interchangeable_features(model, posed.features, posed.relationships,
+                                               solver.stations.relation_ordered, model.classes.empty());
   const auto kept = one_side(posed, orbits, features);
   bool changed = false;
   for (Index v = 0; v < kept.size(); ++v) changed = changed || kept[v].size() < posed.problem.variables[v].domain();
   if (changed) {
     posed.problem = restricted(posed.problem, kept);
-    run();
+    solver.solve(posed);
   }
   const Labeling& best = posed.outcome.labelings.front();
   posed.complete = std::all_of(best.values.begin(), best.values.end(), [](Index value) { return value > 0; });
@@ -86,10 +108,17 @@ ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeat
   return posed;
 }
 
-/// Probability of each class, and last of none, when all are equally likely beforehand.
-std::vector<double> class_probabilities(const std::vector<ClassOutcome>& classes) {
-  std::vector<double> log_evidence;
-  for (const ClassOutcome& c : classes) log_evidence.push_back(c.log_evidence);
+}  // namespace
+
+std::vector<double> comparable_evidence(const std::vector<Explained>& classes) {
+  const bool summed =
+      std::none_of(classes.begin(), classes.end(), [](const Explained& c) { return std::isnan(c.log_evidence); });
+  std::vector<double> evidence;
+  for (const Explained& c : classes) evidence.push_back(summed ? c.log_evidence : -c.least_cost);
+  return evidence;
+}
+
+std::vector<double> class_probabilities(std::vector<double> log_evidence) {
   log_evidence.push_back(0);  // everything is clutter
   const double top = *std::max_element(log_evidence.begin(), log_evidence.end());
   double sum = 0;
@@ -97,8 +126,6 @@ std::vector<double> class_probabilities(const std::vector<ClassOutcome>& classes
   for (double& e : log_evidence) e /= sum;
   return log_evidence;
 }
-
-}  // namespace
 
 Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations, const LabelingRequest& request,
                  Context& context) {
@@ -119,13 +146,22 @@ Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations,
   const LabelingProblem problem = build_problem(view, model, analysis.features, overlap, stations, context);
   lap("relate");
 
-  for (ClassOutcome& posed : pose_classes(problem, model, stations.probability))
-    analysis.classes.push_back(solve(std::move(posed), model, analysis.features, stations, request, context));
-  analysis.class_probabilities = class_probabilities(analysis.classes);
-  analysis.best = static_cast<std::size_t>(
-      std::max_element(analysis.class_probabilities.begin(), analysis.class_probabilities.end() - 1) -
-      analysis.class_probabilities.begin());
+  Solver solver{stations, request, context};
+  std::vector<Explained> explained;
+  for (ClassOutcome& posed : pose_classes(problem, model, stations.probability)) {
+    analysis.classes.push_back(solve(std::move(posed), model, analysis.features, solver));
+    explained.push_back({analysis.classes.back().log_evidence, analysis.classes.back().least_cost});
+  }
+  analysis.class_evidence = comparable_evidence(explained);
+  analysis.class_probabilities = class_probabilities(analysis.class_evidence);
+  analysis.best =
+      static_cast<std::size_t>(std::max_element(analysis.class_evidence.begin(), analysis.class_evidence.end()) -
+                               analysis.class_evidence.begin());
   lap("label");
+  if (stations.marginals) {
+    analysis.timings.back().second -= solver.marginals_ms;
+    analysis.timings.emplace_back("marginals", solver.marginals_ms);
+  }
   if (context.cancelled()) throw Error("interrupted", interrupted_exit_code);
   return analysis;
 }

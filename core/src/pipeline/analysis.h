@@ -19,11 +19,24 @@ struct ClassOutcome {
   std::vector<Index> features;       ///< model feature of each variable
   std::vector<Index> relationships;  ///< model relationship of each constraint
   LabelingProblem problem;           ///< interchangeable features told apart by the best labelling
-  LabelingOutcome outcome;
-  double log_evidence = 0;  ///< over all labellings (those listed, where the labeler makes no sums), before
-                            ///< interchangeable features are told apart
+  LabelingOutcome outcome;           ///< the labeler's; its probabilities are those of the pipeline's marginals, if any
+  std::string probabilities;         ///< how they were made; empty: there are none
+  double log_evidence = 0;  ///< over all labellings, before interchangeable features are told apart; not a number where
+                            ///< none is made
+  double least_cost = 0;    ///< of the labellings found, before interchangeable features are told apart
   bool complete = false;    ///< every feature present, every relationship within tolerance
 };
+
+/// What classes are compared by, in the order given: the log evidence of each, or, where not all have one, minus the
+/// cost of each one's best labelling. 0 is that of "everything is clutter".
+struct Explained {
+  double log_evidence, least_cost;
+};
+std::vector<double> comparable_evidence(const std::vector<Explained>& classes);
+
+/// Probability of each class and, last, of none, when all are equally likely beforehand.
+/// \param log_evidence  per class, in nats; -infinity: impossible
+std::vector<double> class_probabilities(std::vector<double> log_evidence);
 
 /// All that is learned of a mesh under a model, station by station.
 struct Analysis {
@@ -31,6 +44,7 @@ struct Analysis {
   WorkingSets sets;
   ConstructedFeatures features;
   std::vector<ClassOutcome> classes;        ///< one for a model without classes
+  std::vector<double> class_evidence;       ///< what `classes` are compared by
   std::vector<double> class_probabilities;  ///< over `classes` and, last, none of them
   std::size_t best = 0;                     ///< the class of greatest evidence
   Timings timings;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t max_table = 16'000'000;
 constexpr std::size_t grain = 16;
+constexpr double posterior_rounding = 1e-6;  ///< of a variable's probabilities, summed
 
 std::vector<OptionValue> relation_arguments(const MeshView& mesh, const Relationship& relationship,
                                             const std::vector<OptionValue>& defaults) {
@@ -280,11 +281,29 @@ void check_outcome(const LabelingProblem& problem, const LabelingOutcome& outcom
     if (!meets_exclusions(problem, labeling.values))
       throw PluginError(plugin, "labelled two features with candidates that share a vertex");
   }
+  const double slack = rounding_slack(problem);
+  for (const Labeling& labeling : outcome.labelings)
+    if (const double cost = cost_of(problem, labeling.values); !(outcome.lower_bound <= cost + slack))
+      throw PluginError(plugin, "gave " + std::to_string(outcome.lower_bound) +
+                                    " as the least that a labelling can cost, and one that costs " +
+                                    std::to_string(cost));
   if (outcome.posteriors.empty()) return;
   bool sized = outcome.posteriors.size() == problem.variables.size();
   for (Index v = 0; sized && v < problem.variables.size(); ++v)
     sized = outcome.posteriors[v].size() == problem.variables[v].domain();
   if (!sized) throw PluginError(plugin, "gave posteriors that do not match the variables' domains");
+  for (Index v = 0; v < problem.variables.size(); ++v) {
+    double sum = 0;
+    for (const double p : outcome.posteriors[v]) {
+      if (!(p >= 0 && p <= 1 + posterior_rounding))
+        throw PluginError(plugin, "gave a value of '" + problem.variables[v].name + "' the probability " +
+                                      std::to_string(p) + ", which is not from 0 to 1");
+      sum += p;
+    }
+    if (!(std::abs(sum - 1) <= posterior_rounding))
+      throw PluginError(plugin, "gave '" + problem.variables[v].name + "' probabilities that sum to " +
+                                    std::to_string(sum) + " and not to 1");
+  }
 }
 
 }  // namespace toposcope

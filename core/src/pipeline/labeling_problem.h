@@ -25,7 +25,7 @@ std::vector<ClassOutcome> pose_classes(const LabelingProblem& problem, const Mod
 LabelingProblem restricted(const LabelingProblem& problem, const std::vector<std::vector<Index>>& kept);
 
 /// Refuses an outcome that breaks the labelers' contract: no labelling, values out of range, two features that share a
-/// vertex, posteriors of the wrong size. \throw PluginError
+/// vertex, a bound above a labelling's cost, posteriors of the wrong size or that do not sum to 1. \throw PluginError
 void check_outcome(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& plugin);
 
 }  // namespace toposcope

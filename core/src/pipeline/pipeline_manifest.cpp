@@ -124,7 +124,8 @@ Setting parse_setting(std::string_view text, const std::string& owner) {
                   .id = first == last ? "" : std::string(path.substr(first + 1, last - first - 1)),
                   .option = std::string(path.substr(last + 1)),
                   .value = std::string(text.substr(equals + 1))};
-  const std::vector<std::string> stations = {"filters", "worksets", "shapes", "relations", "labeler", "probability"};
+  const std::vector<std::string> stations = {"filters", "worksets",  "shapes",     "relations",
+                                             "labeler", "marginals", "probability"};
   if (std::find(stations.begin(), stations.end(), setting.station) == stations.end())
     throw UsageError(owner + ": there is no station '" + setting.station + "'; " +
                      name_remedy(setting.station, stations));
@@ -157,6 +158,7 @@ PipelineManifest read_pipeline(const std::filesystem::path& path, const PluginCa
   pipeline.shapes = reader.stations(root["shapes"], PluginKind::shapes);
   pipeline.relations = reader.stations(root["relations"], PluginKind::relations);
   pipeline.labeler = reader.station(root["labeler"], PluginKind::labelers);
+  if (root["marginals"]) pipeline.marginals = reader.station(root["marginals"], PluginKind::labelers);
   pipeline.probability = reader.options(root["probability"], probability_option_table(), "probability");
   errors.throw_if_any();
   return pipeline;
@@ -181,6 +183,11 @@ void apply_override(PipelineManifest& pipeline, std::string_view text, const Plu
     replace(pipeline.worksets.options, checked(PluginKind::worksets, pipeline.worksets.plugin));
   } else if (setting.station == "labeler") {
     replace(pipeline.labeler.options, checked(PluginKind::labelers, pipeline.labeler.plugin));
+  } else if (setting.station == "marginals") {
+    if (!pipeline.marginals)
+      throw UsageError(owner + ": the pipeline '" + pipeline.name +
+                       "' has no station 'marginals'; add one, such as marginals: {plugin: posterior}");
+    replace(pipeline.marginals->options, checked(PluginKind::labelers, pipeline.marginals->plugin));
   } else if (setting.station == "probability") {
     replace(pipeline.probability,
             check_option(probability_option_table(), setting.option, setting.value, owner + ": probability"));

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +28,8 @@ struct PipelineManifest {
   std::map<std::string, std::vector<OptionValue>> shapes;     ///< by plugin id; those not named take their defaults
   std::map<std::string, std::vector<OptionValue>> relations;  ///< likewise
   StationPlugin labeler;
-  std::vector<OptionValue> probability;  ///< the kernel's own: probability_option_table()
+  std::optional<StationPlugin> marginals;  ///< the labeler whose probabilities are reported; absent: `labeler`
+  std::vector<OptionValue> probability;    ///< the kernel's own: probability_option_table()
 };
 
 /// Reads a pipeline and checks all of it against the plugins' manifests: nothing is loaded.
@@ -41,7 +43,7 @@ std::vector<OptionValue> plugin_options(const PipelineManifest& pipeline, const 
                                         std::string_view id);
 
 /// Command line `--set`: "station.option=value", where station is filters.<id> (every filter of that id), worksets,
-/// shapes.<id>, relations.<id>, labeler or probability. \throw UsageError
+/// shapes.<id>, relations.<id>, labeler, marginals or probability. \throw UsageError
 void apply_override(PipelineManifest& pipeline, std::string_view setting, const PluginCatalog& catalog);
 
 /// Command line `--labeler`: another labeler, with its defaults; the pipeline's own keeps its options.

@@ -71,6 +71,12 @@ Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const
   stations.labeler_id = labeler.id;
   stations.labeler = host.labeler(labeler.id, pipeline.labeler.options);
   stations.uses.push_back(use_of(labeler, pipeline.labeler.options));
+  if (pipeline.marginals) {
+    const PluginManifest& marginals = catalog.require(PluginKind::labelers, pipeline.marginals->plugin);
+    stations.marginals_id = marginals.id;
+    stations.marginals = host.labeler(marginals.id, pipeline.marginals->options);
+    stations.uses.push_back(use_of(marginals, pipeline.marginals->options));
+  }
   stations.probability = probability_model(Options(pipeline.probability));
   return stations;
 }

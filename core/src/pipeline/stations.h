@@ -40,6 +40,8 @@ struct Stations {
   std::map<std::string, std::shared_ptr<const RelationTester>> relations;
   std::string labeler_id;
   std::shared_ptr<const Labeler> labeler;
+  std::string marginals_id;                  ///< empty: the labeler's own probabilities are reported
+  std::shared_ptr<const Labeler> marginals;  ///< null with it
 
   ProbabilityModel probability{};
 

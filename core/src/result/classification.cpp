@@ -4,33 +4,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace toposcope {
 
 Classification classify(const std::vector<Result>& results) {
   Classification classification;
+  std::vector<Explained> explained;
+  for (const Result& result : results)
+    for (const ClassReport& each : result.classes) explained.push_back({each.log_evidence, each.least_cost});
+  const std::vector<double> evidence = comparable_evidence(explained);
+  const std::vector<double> probabilities = class_probabilities(evidence);
   const Result* best = nullptr;
   const ClassReport* best_class = nullptr;
-  double top = 0;  // log evidence of "none": everything is clutter
+  double best_evidence = 0;
+  std::size_t c = 0;
   for (const Result& result : results)
     for (const ClassReport& each : result.classes) {
-      classification.probabilities.emplace_back(each.name, each.log_evidence);
-      top = std::max(top, each.log_evidence);
-      if (!best_class || each.log_evidence > best_class->log_evidence) {
+      classification.probabilities.emplace_back(each.name, probabilities[c]);
+      if (!best_class || evidence[c] > best_evidence) {
         best = &result;
         best_class = &each;
+        best_evidence = evidence[c];
       }
+      ++c;
     }
-  classification.probabilities.emplace_back("none", 0);
-  double sum = 0;
-  for (auto& [name, value] : classification.probabilities) sum += value = std::exp(value - top);
-  for (auto& [name, value] : classification.probabilities) value /= sum;
+  classification.probabilities.emplace_back("none", probabilities.back());
   if (!best) return classification;
   classification.mesh_path = best->mesh_path;
   classification.model = best->model;
   classification.relations = best->relations;
-  if (best_class->fits && best_class->log_evidence > 0) classification.class_name = best_class->name;
+  if (best_class->fits && best_evidence > 0) classification.class_name = best_class->name;
   return classification;
 }
 

@@ -233,16 +233,18 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
   result.model = model.name;
   result.log_evidence = posed.log_evidence;
   result.guarantee = outcome.guarantee;
+  result.probabilities = posed.probabilities;
   result.optimal = outcome.optimal;
   result.working_sets = analysis.sets.size();
   result.timings = analysis.timings;
   result.plugins = stations.uses;
   for (std::size_t c = 0; c < analysis.classes.size(); ++c) {
     const ClassOutcome& each = analysis.classes[c];
-    result.classes.push_back(
-        {each.name, each.log_evidence, analysis.class_probabilities[c], model.classes.empty() || each.complete});
+    result.classes.push_back({each.name, each.log_evidence, each.least_cost, analysis.class_probabilities[c],
+                              model.classes.empty() || each.complete});
   }
-  if (!model.classes.empty() && posed.complete && posed.log_evidence > 0) result.class_name = posed.name;
+  if (!model.classes.empty() && posed.complete && analysis.class_evidence[analysis.best] > 0)
+    result.class_name = posed.name;
   for (Index f = 0; f < model.features.size(); ++f) {
     result.features.push_back(explainer.feature(f));
     result.candidates.emplace_back(model.features[f].name, analysis.features.of_feature[f].count);
@@ -254,7 +256,8 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
   for (std::size_t k = 1; k < outcome.labelings.size(); ++k) {
     AlternativeReport& alternative = result.alternatives.emplace_back();
     alternative.cost = outcome.labelings[k].cost;
-    alternative.probability = std::min(1.0, std::exp(-outcome.labelings[k].cost - outcome.log_evidence));
+    // Not a number without evidence: `min` keeps its first argument then.
+    alternative.probability = std::min(std::exp(-outcome.labelings[k].cost - outcome.log_evidence), 1.0);
     for (Index v = 0; v < best.values.size(); ++v)
       alternative.candidates.emplace_back(posed.problem.variables[v].name,
                                           static_cast<int>(outcome.labelings[k].values[v]));

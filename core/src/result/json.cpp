@@ -152,6 +152,7 @@ Json document(const Result& result) {
   root["log_evidence"] = number(result.log_evidence);
   root["optimal"] = result.optimal;
   root["guarantee"] = result.guarantee;
+  root["probabilities"] = result.probabilities.empty() ? Json(nullptr) : Json(result.probabilities);
   root["features"] = Json::object();
   for (const FeatureReport& report : result.features) root["features"][report.name] = feature(report);
   root["relations"] = Json::array();

@@ -50,7 +50,8 @@ struct FeatureReport {
 /// How well one class of the model (the model itself when it has no classes) explains the mesh.
 struct ClassReport {
   std::string name;
-  double log_evidence = 0;  ///< against "everything is clutter"
+  double log_evidence = 0;  ///< against "everything is clutter"; not a number where none is made
+  double least_cost = 0;    ///< what classes are compared by where one has no evidence
   double probability = 0;   ///< over the classes of this model and none of them
   bool fits = false;        ///< a class rule: its features are present, its relationships satisfied
 };
@@ -72,7 +73,8 @@ struct Result {
   std::string class_name;  ///< for a model with class rules: the best; empty when none fits
   std::vector<ClassReport> classes;
   double log_evidence = 0;
-  std::string guarantee;  ///< what the labeler promises
+  std::string guarantee;      ///< what the labeler promises of the labelling
+  std::string probabilities;  ///< how they were made, plugin first; empty: there are none
   bool optimal = false;
   std::vector<FeatureReport> features;
   std::vector<RelationReport> relations;

@@ -12,6 +12,7 @@
 #include "elimination_order.h"
 #include "factors.h"
 #include "log_sum.h"
+#include "toposcope/large_array.h"
 #include "watch.h"
 
 namespace toposcope::posterior {
@@ -32,7 +33,7 @@ class Elimination {
       bucket.bound = plan.neighbors[v];
       bucket.rows = 1;
       for (const Index w : bucket.bound) bucket.rows *= graph.domain(w);
-      bucket.table.resize(bucket.rows * graph.domain(v));
+      bucket.table = large_array<double>(bucket.rows * graph.domain(v));
       bucket.message.resize(bucket.rows);
       watch.poll(bucket.table.size());
     }
@@ -125,7 +126,7 @@ class Elimination {
     }
   }
 
-  void add(Bucket& bucket, const std::vector<Index>& scope, const std::vector<double>& costs) {
+  void add(Bucket& bucket, const std::vector<Index>& scope, std::span<const double> costs) {
     const std::size_t width = graph_.domain(bucket.variable), step = stride(scope, bucket.variable);
     each_row(bucket, scope, [&](std::size_t row, std::size_t at) {
       double* to = bucket.table.data() + row * width;

@@ -98,7 +98,7 @@ class Search {
 
   void find_least(Index depth, Index later) {
     const double* cost = costs(depth);
-    least(depth, later) = *std::min_element(cost + tables_.offsets[later], cost + tables_.offsets[later + 1]);
+    least(depth, later) = least_of(cost + tables_.offsets[later], tables_.domain(later));
   }
 
   void weigh(Index depth, Index later) {
@@ -132,7 +132,7 @@ class Search {
   bool descend(Index depth, double cost, const Offer& offer, const Limit& limit) {
     double rest = 0;  // what the later variables cost at least
     for (Index later = depth + 1; later < tables_.depths(); ++later)
-      rest += *std::min_element(costs(depth) + tables_.offsets[later], costs(depth) + tables_.offsets[later + 1]);
+      rest += least_of(costs(depth) + tables_.offsets[later], tables_.domain(later));
     const double* own = costs(depth) + tables_.offsets[depth];
     std::vector<Child>& children = children_[depth];
     children.clear();

@@ -10,9 +10,20 @@
 #include <vector>
 
 #include "factors.h"
+#include "toposcope/large_array.h"
 #include "watch.h"
 
 namespace toposcope::posterior {
+
+/// Four chains of minima at a time: the processor need not wait for one.
+inline double least_of(const double* costs, std::size_t count) {
+  double least[4] = {forbidden, forbidden, forbidden, forbidden};
+  std::size_t i = 0;
+  for (; i + 4 <= count; i += 4)
+    for (std::size_t k = 0; k < 4; ++k) least[k] = std::min(least[k], costs[i + k]);
+  for (; i < count; ++i) least[0] = std::min(least[0], costs[i]);
+  return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+}
 
 /// What a factor adds to the values of one variable once the variables of its scope before it are assigned: the least
 /// that the factor can still cost, less what was counted already. Summed along a path the increments give the factor's
@@ -47,6 +58,7 @@ class SearchTables {
       Ordered ordered = in_search_order(factor, depth_of);
       ending[ordered.scope.back()].push_back(std::move(ordered));
     }
+    std::vector<double> shared;
     // From the last variable to the first: what its values cost is shared out among the factors that end at it, so that
     // their minima know of it. That moves costs about without changing any labelling's.
     for (Index depth = depths(); depth-- > 0;) {
@@ -55,11 +67,15 @@ class SearchTables {
       const std::size_t width = domain(depth);
       double* own = root.data() + offsets[depth];
       for (Ordered& ordered : ending[depth]) {
-        if (ordered.graded)
+        if (ordered.graded) {
+          shared.resize(width);
+          for (std::size_t v = 0; v < width; ++v) shared[v] = own[v] / static_cast<double>(informed);
           for (std::size_t entry = 0; entry < ordered.table.size(); entry += width) {
-            for (std::size_t v = 0; v < width; ++v) ordered.table[entry + v] += own[v] / static_cast<double>(informed);
+            double* row = ordered.table.data() + entry;
+            for (std::size_t v = 0; v < width; ++v) row[v] += shared[v];
             watch_.poll(width);
           }
+        }
         add_increments(ordered.scope, std::move(ordered.table));
       }
       if (informed > 0)
@@ -100,15 +116,19 @@ class SearchTables {
     for (std::size_t k = 0; k < arity; ++k)
       for (const Index depth : ordered.scope)
         if (depth > depth_of[factor.scope[k]]) stride[k] *= domain(depth);
-    ordered.table.resize(factor.costs.size());
+    ordered.graded = std::any_of(factor.costs.begin(), factor.costs.end(),
+                                 [](double cost) { return cost != 0 && cost < forbidden; });
+    if (std::is_sorted(stride.rbegin(), stride.rend())) {
+      reserve_large(ordered.table, factor.costs.size());
+      ordered.table.assign(factor.costs.begin(), factor.costs.end());
+      watch_.poll(ordered.table.size());
+      return ordered;
+    }
+    ordered.table = large_array<double>(factor.costs.size());
     const std::size_t width = graph_.domain(factor.scope.back());
     std::size_t at = 0;
     for (std::size_t entry = 0; entry < factor.costs.size(); entry += width) {
-      for (std::size_t i = 0; i < width; ++i) {
-        const double cost = factor.costs[entry + i];
-        ordered.table[at + i * stride.back()] = cost;
-        ordered.graded = ordered.graded || (cost != 0 && cost < forbidden);
-      }
+      for (std::size_t i = 0; i < width; ++i) ordered.table[at + i * stride.back()] = factor.costs[entry + i];
       watch_.poll(2 * width);
       for (std::size_t k = arity - 1; k-- > 0;) {
         at += stride[k];
@@ -131,7 +151,7 @@ class SearchTables {
       std::vector<double> least(table.size() / width);
       for (std::size_t row = 0; row < least.size(); ++row) {
         double* first = table.data() + row * width;
-        least[row] = *std::min_element(first, first + width);
+        least[row] = least_of(first, width);
         if (least[row] < forbidden)  // else the value before is forbidden and the row never asked for
           for (std::size_t v = 0; v < width; ++v) first[v] -= least[row];
         watch_.poll(2 * width);

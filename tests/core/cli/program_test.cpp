@@ -153,7 +153,7 @@ TEST_F(Program, BadUsageIsExplained) {
       {"run " + mesh("cup"), "--model"},
       {"run " + mesh("cup") + " --model cpu", "cup"},
       {"run " + mesh("cup") + " --model cup --pipeline defautl", "default"},
-      {"run " + mesh("cup") + " --model cup --labeler tree-serch", "tree-search"},
+      {"run " + mesh("cup") + " --model cup --labeler least-eror", "least-error"},
       {"run " + mesh("cup") + " --model cup --set worksets.growht=2", "growth"},
       {"run " + mesh("cup") + " --model cup --set worksets.growth=99", "4"},
       {"run " + mesh("cup") + " --model cup --set nonsense", "station.option=value"},

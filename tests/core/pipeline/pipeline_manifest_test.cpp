@@ -27,7 +27,7 @@ class Pipeline : public ::testing::Test {
          {"restarts", OptionType::integer, "", "3", "0", "", "how often"}});
     add("plane", PluginKind::shapes, {});
     add("parallel", PluginKind::relations, {{"tolerance", OptionType::real, "deg", "10", "0", "90", "largest angle"}});
-    add("tree-search", PluginKind::labelers, {{"order", OptionType::text, "", "", "", "", "has no default"}});
+    add("least-error", PluginKind::labelers, {{"order", OptionType::text, "", "", "", "", "has no default"}});
     add("exact", PluginKind::labelers, {{"nodes", OptionType::integer, "", "1000", "1", "", "node limit"}});
     folder.write("shapes/broken.plugin.json", "{");
   }
@@ -77,7 +77,7 @@ class Pipeline : public ::testing::Test {
                                           "worksets: {plugin: curvature, rings: 3}\n"
                                           "shapes: {circle: {method: powell}}\n"
                                           "relations: {parallel: {tolerance: 5}}\n"
-                                          "labeler: {plugin: tree-search, order: detectability}\n"
+                                          "labeler: {plugin: least-error, order: detectability}\n"
                                           "probability: {max_candidates: 7}\n";
   PluginFolderFixture folder;
 };
@@ -90,7 +90,7 @@ TEST_F(Pipeline, ReadsEveryStation) {
   EXPECT_EQ(Options(pipeline.filters[0].options).real("max_edge"), 0.5);
   EXPECT_EQ(Options(pipeline.filters[1].options).real("max_edge"), 0.02);
   EXPECT_EQ(Options(pipeline.worksets.options).integer("rings"), 3);
-  EXPECT_EQ(pipeline.labeler.plugin, "tree-search");
+  EXPECT_EQ(pipeline.labeler.plugin, "least-error");
   EXPECT_EQ(Options(pipeline.labeler.options).text("order"), "detectability");
   EXPECT_EQ(Options(pipeline.probability).integer("max_candidates"), 7);
   EXPECT_EQ(Options(pipeline.probability).real("fit_error_scale"), 2);
@@ -117,7 +117,7 @@ TEST_F(Pipeline, ErrorsNameThePlaceAndTheNearestName) {
   EXPECT_THAT(error_of(head + "worksets:\n  plugin: curvature\n  rings: 9\n" + tail),
               AllOf(HasSubstr(at(5, 3)), HasSubstr("'9'"), HasSubstr("from 1 to 8")));
   EXPECT_THAT(error_of(head + "worksets: {plugin: circle}\n" + tail), HasSubstr("'circle' is a shape"));
-  EXPECT_THAT(error_of(head + "worksets: {plugin: curvature}\nlabeler: {plugin: tree-search}\n"),
+  EXPECT_THAT(error_of(head + "worksets: {plugin: curvature}\nlabeler: {plugin: least-error}\n"),
               AllOf(HasSubstr(at(4, 10)), HasSubstr("'order' is not given")));
   EXPECT_THAT(error_of(head + "worksets: {plugin: curvature}\nprobability: {max_candidates: 0}\n" + tail),
               AllOf(HasSubstr(at(4, 15)), HasSubstr("max_candidates")));
@@ -193,7 +193,7 @@ TEST_F(Pipeline, WrongOverrides) {
 
 TEST_F(Pipeline, AnotherLabelerTakesItsDefaults) {
   PipelineManifest pipeline = read(whole);
-  set_labeler(pipeline, "tree-search", catalog());
+  set_labeler(pipeline, "least-error", catalog());
   EXPECT_EQ(Options(pipeline.labeler.options).text("order"), "detectability") << "its own labeler keeps its options";
   set_labeler(pipeline, "exact", catalog());
   EXPECT_EQ(Options(pipeline.labeler.options).integer("nodes"), 1000);
