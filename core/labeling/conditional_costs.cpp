@@ -11,8 +11,13 @@ double finite(double cost) {
   return cost < forbidden ? cost : 0;
 }
 
-double infinite(double cost) {
-  return cost < forbidden ? 0.0 : 1.0;
+std::int32_t infinite(double cost) {
+  return cost < forbidden ? 0 : 1;
+}
+
+template <class Table, class Sum>
+void add(const Table* before, const Table* after, Sum* sums, std::size_t count) {
+  for (std::size_t a = 0; a < count; ++a) sums[a] += after[a] - before[a];
 }
 
 struct Scope {
@@ -61,7 +66,7 @@ void ConditionalCosts::reset(std::span<const Index> values) {
   // Twice the exclusions, once from each side; entries with the constraints' own tables.
   for (Index v = 0; v < values_.size(); ++v) {
     cost_ += costs_[at(v, values_[v])];
-    broken_ += static_cast<std::int64_t>(entries_[at(v, values_[v])]);
+    broken_ += entries_[at(v, values_[v])];
     use(v, at(v, values_[v]), 1);
   }
   std::int64_t excluded_twice = 0;
@@ -137,18 +142,10 @@ void ConditionalCosts::assign(Index v, Index value) {
   broken_ += broken_change(v, value);
   for (const CostTables::Pair& pair : tables_.pairs_[v]) {
     const std::size_t first = tables_.offsets_[pair.other], domain = tables_.offsets_[pair.other + 1] - first;
-    const double* before = pair.costs + from * domain;
-    const double* after = pair.costs + value * domain;
-    double* costs = costs_.data() + first;
-    if (!pair.forbids) {
-      for (std::size_t a = 0; a < domain; ++a) costs[a] += after[a] - before[a];
-      continue;
-    }
-    double* entries = entries_.data() + first;
-    for (std::size_t a = 0; a < domain; ++a) {
-      costs[a] += finite(after[a]) - finite(before[a]);
-      entries[a] += infinite(after[a]) - infinite(before[a]);
-    }
+    if (pair.costs != nullptr)
+      add(pair.costs + from * domain, pair.costs + value * domain, costs_.data() + first, domain);
+    if (pair.entries != nullptr)
+      add(pair.entries + from * domain, pair.entries + value * domain, entries_.data() + first, domain);
   }
   move_wide(v, from, value);
   use(v, at(v, from), -1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "toposcope/conditional_costs.h"
 
@@ -8,7 +9,7 @@ namespace toposcope {
 
 CostTables::CostTables(const LabelingProblem& problem, Deadline& deadline) : problem_(problem) {
   read_variables();
-  complete_ = read_constraints(deadline) && turn_pairs(deadline) && list_conflicts(deadline);
+  complete_ = read_constraints(deadline) && read_pairs(deadline) && list_conflicts(deadline);
 }
 
 void CostTables::read_variables() {
@@ -31,22 +32,23 @@ void CostTables::read_variables() {
 bool CostTables::read_constraints(Deadline& deadline) {
   double bound = problem_.constant, magnitude = 1 + std::abs(problem_.constant);
   const auto read = [&](const std::vector<double>& costs) {
-    double least = forbidden, largest = 0;
-    bool forbids = false;
+    double least = forbidden, greatest = -forbidden, largest = 0;
     for (const double cost : costs) {
       least = std::min(least, cost);
-      forbids |= cost == forbidden;
+      greatest = std::max(greatest, cost);
       largest = std::max(largest, cost < forbidden ? std::abs(cost) : 0);
     }
     bound += least;
     magnitude += largest;
-    return forbids;
+    return std::pair{greatest == forbidden, largest > 0};
   };
   for (const LabelingVariable& variable : problem_.variables) read(variable.costs);
   for (Index c = 0; c < problem_.constraints.size(); ++c) {
     if (deadline.reached()) return false;
     const LabelingConstraint& constraint = problem_.constraints[c];
-    forbids_.push_back(read(constraint.costs));
+    const auto [forbids, weighs] = read(constraint.costs);
+    forbids_.push_back(forbids);
+    weighs_.push_back(weighs);
     if (constraint.scope.size() == 1)
       for (std::size_t a = 0; a < constraint.costs.size(); ++a)
         unary_[offsets_[constraint.scope[0]] + a] += constraint.costs[a];
@@ -65,21 +67,40 @@ bool CostTables::read_constraints(Deadline& deadline) {
   return true;
 }
 
-bool CostTables::turn_pairs(Deadline& deadline) {
-  for (std::size_t c = 0; c < problem_.constraints.size(); ++c) {
-    const LabelingConstraint& constraint = problem_.constraints[c];
-    if (constraint.scope.size() != 2) continue;
+bool CostTables::read_pairs(Deadline& deadline) {
+  for (Index c = 0; c < problem_.constraints.size(); ++c) {
+    const std::vector<Index>& scope = problem_.constraints[c].scope;
+    if (scope.size() != 2) continue;
     if (deadline.reached()) return false;
-    const Index first = constraint.scope[0], second = constraint.scope[1];
-    const std::size_t rows = problem_.variables[first].domain(), columns = problem_.variables[second].domain();
-    turned_.push_back(std::make_unique_for_overwrite<double[]>(rows * columns));
-    double* turned = turned_.back().get();
-    for (std::size_t a = 0; a < rows; ++a)
-      for (std::size_t b = 0; b < columns; ++b) turned[b * rows + a] = constraint.costs[a * columns + b];
-    pairs_[first].push_back({constraint.costs.data(), second, forbids_[c]});
-    pairs_[second].push_back({turned, first, forbids_[c]});
+    pairs_[scope[0]].push_back(see_pair(c, false));
+    pairs_[scope[1]].push_back(see_pair(c, true));
   }
   return true;
+}
+
+// Copies only what the problem's own table cannot serve for.
+CostTables::Pair CostTables::see_pair(Index constraint, bool second) {
+  const std::vector<double>& costs = problem_.constraints[constraint].costs;
+  const std::vector<Index>& scope = problem_.constraints[constraint].scope;
+  const Index own = scope[second ? 1 : 0], other = scope[second ? 0 : 1];
+  const std::size_t rows = problem_.variables[own].domain(), columns = problem_.variables[other].domain();
+  const std::size_t row_stride = second ? 1 : columns, column_stride = second ? rows : 1;
+  const auto copy = [&](auto* seen, auto convert) {
+    for (std::size_t a = 0; a < rows; ++a)
+      for (std::size_t b = 0; b < columns; ++b)
+        seen[a * columns + b] = convert(costs[a * row_stride + b * column_stride]);
+    return seen;
+  };
+  Pair pair{nullptr, nullptr, other};
+  if (weighs_[constraint] && !forbids_[constraint] && !second)
+    pair.costs = costs.data();
+  else if (weighs_[constraint])
+    pair.costs = copy(own_costs_.emplace_back(std::make_unique_for_overwrite<double[]>(costs.size())).get(),
+                      [](double cost) { return cost < forbidden ? cost : 0.0; });
+  if (forbids_[constraint])
+    pair.entries = copy(own_entries_.emplace_back(std::make_unique_for_overwrite<std::uint8_t[]>(costs.size())).get(),
+                        [](double cost) { return static_cast<std::uint8_t>(cost < forbidden ? 0 : 1); });
+  return pair;
 }
 
 bool CostTables::list_conflicts(Deadline& deadline) {

@@ -13,8 +13,8 @@
 
 namespace toposcope {
 
-/// The problem's tables as local search reads them: both orientations of a pair's costs, and for each candidate those
-/// that it excludes. Shared by any number of searches; the problem must outlive it.
+/// The problem's tables as local search reads them: both orientations of a pair's costs, what is forbidden apart,, and
+/// for each candidate those that it excludes. Shared by any number of searches; the problem must outlive it.
 class CostTables {
  public:
   /// Reads every table twice. When the deadline is reached it stops early and is not `complete`.
@@ -49,11 +49,11 @@ class CostTables {
 
  private:
   friend class ConditionalCosts;
-  /// A constraint over two variables, as one of them sees it.
+  /// A constraint over two variables, as one of them sees it: row-major, own variable first.
   struct Pair {
-    const double* costs;  ///< row-major, own variable first
+    const double* costs;          ///< 0 where infinite; null where all are 0
+    const std::uint8_t* entries;  ///< 1 where infinite, else 0; null where nothing is
     Index other;
-    bool forbids;  ///< some cost is infinite
   };
   /// A constraint over three or more, as one of its variables sees it.
   struct Wide {
@@ -62,7 +62,8 @@ class CostTables {
 
   void read_variables();
   bool read_constraints(Deadline& deadline);
-  bool turn_pairs(Deadline& deadline);
+  bool read_pairs(Deadline& deadline);
+  Pair see_pair(Index constraint, bool second);
   bool list_conflicts(Deadline& deadline);
 
   const LabelingProblem& problem_;
@@ -71,11 +72,12 @@ class CostTables {
   std::vector<std::size_t> offsets_, allowed_offsets_, conflict_offsets_;
   std::vector<Index> owners_, candidates_, conflicts_;
   std::vector<std::uint32_t> allowed_;
-  std::vector<double> unary_;  ///< by position: own cost and that of constraints over the variable alone
-  std::vector<bool> forbids_;  ///< by constraint
+  std::vector<double> unary_;           ///< by position: own cost and that of constraints over the variable alone
+  std::vector<bool> forbids_, weighs_;  ///< by constraint: some cost is infinite; is finite and not 0
   std::vector<std::vector<Pair>> pairs_;
   std::vector<std::vector<Wide>> wide_;
-  std::vector<std::unique_ptr<double[]>> turned_;
+  std::vector<std::unique_ptr<double[]>> own_costs_;
+  std::vector<std::unique_ptr<std::uint8_t[]>> own_entries_;
 };
 
 /// A labelling and what every change of one variable would make of it. Forbidden entries and exclusions are counted,
@@ -105,9 +107,7 @@ class ConditionalCosts {
 
  private:
   std::size_t at(Index v, Index value) const { return tables_.offsets_[v] + value; }
-  std::int32_t broken_of(Index v, Index value) const {
-    return static_cast<std::int32_t>(entries_[at(v, value)]) + excluders(v, value);
-  }
+  std::int32_t broken_of(Index v, Index value) const { return entries_[at(v, value)] + excluders(v, value); }
   bool own_conflict(Index v, Index candidate) const;
   void use(Index v, std::size_t position, std::int32_t sign);
   void move_wide(Index v, Index from, Index to);
@@ -116,11 +116,10 @@ class ConditionalCosts {
   std::vector<Index> values_;
   double cost_ = 0;
   std::int64_t broken_ = 0;
-  std::vector<double> costs_;  ///< by position: its finite costs given the others
-  std::vector<double>
-      entries_;  ///< by position: its forbidden entries given the others, whole; of the costs' width, for speed
-  std::vector<std::int32_t> used_;    ///< by candidate: variables whose candidates conflict with it
-  std::vector<std::uint64_t> users_;  ///< by candidate: sum of those variables
+  std::vector<double> costs_;          ///< by position: its finite costs given the others
+  std::vector<std::int32_t> entries_;  ///< by position: its forbidden entries given the others
+  std::vector<std::int32_t> used_;     ///< by candidate: variables whose candidates conflict with it
+  std::vector<std::uint64_t> users_;   ///< by candidate: sum of those variables
 };
 
 /// Moves one variable after the other to its best value, fewest broken first, then least cost, until none improves:
