@@ -199,7 +199,8 @@ class Run {
     // The rest is for the estimate of the evidence and the labelling.
     Deadline deadline(sweeps_share * (request_.time_limit_s - deadline_.elapsed_s()), context_);
     Watch watch(deadline);
-    BeliefPropagation propagation(graph_, watch);
+    const FactorGraph graph = merged(graph_, watch);
+    BeliefPropagation propagation(graph, watch);
     double residual = forbidden;
     try {
       while (propagation.sweeps() < settings_.max_sweeps && residual > converged_at) {
