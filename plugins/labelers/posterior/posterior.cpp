@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "belief_propagation.h"
@@ -38,7 +39,6 @@ class Run {
         problem_(problem),
         request_(request),
         context_(context),
-        slack_(rounding_slack(problem)),
         deadline_(request.time_limit_s, context),
         watch_(deadline_),
         best_(std::max<std::size_t>(1, request.k_best), request.within) {}
@@ -113,12 +113,18 @@ class Run {
     best_.offer(offered_);
   }
 
+  /// Reads all tables: not before there is something to compare.
+  double slack() {
+    if (!slack_) slack_ = rounding_slack(problem_);
+    return *slack_;
+  }
+
   bool eliminate(const EliminationPlan& plan) {
     Elimination elimination(graph_, plan, watch_);
     const double least = elimination.minimize();
     if (!(least < forbidden)) return false;
     alternatives_proven_ = elimination.k_best(
-        least, [&](const std::vector<Index>& at) { offer(at); }, [&] { return best_.limit() + slack_; }, most_ties);
+        least, [&](const std::vector<Index>& at) { offer(at); }, [&] { return best_.limit() + slack(); }, most_ties);
     outcome_.optimal = true;
     outcome_.nodes += graph_.variables();
     context_.progress(0.3);
@@ -139,8 +145,8 @@ class Run {
     Watch watch(most_nodes == unlimited ? deadline : deadline_);
     try {
       const SearchTables tables(graph_, search_order(problem_), watch);
-      outcome_.lower_bound = tables.bound() - slack_;
-      Search search(graph_, tables, slack_, watch, outcome_.nodes);
+      outcome_.lower_bound = tables.bound() - slack();
+      Search search(graph_, tables, slack(), watch, outcome_.nodes);
       return find_best(search, most_nodes, possible) && (!possible || add_up(tables, search, most_nodes));
     } catch (const OutOfTime&) {
       return !outcome_.posteriors.empty();
@@ -231,8 +237,8 @@ class Run {
     return true;
   }
 
-  double simple_bound() const {
-    double bound = graph_.constant - slack_;
+  double simple_bound() {
+    double bound = graph_.constant - slack();
     for (const std::vector<double>& unary : graph_.unary) bound += *std::min_element(unary.begin(), unary.end());
     for (const Factor& factor : graph_.factors) bound += *std::min_element(factor.costs.begin(), factor.costs.end());
     return bound;
@@ -261,7 +267,7 @@ class Run {
   const LabelingProblem& problem_;
   const LabelingRequest& request_;
   Context& context_;
-  double slack_;
+  std::optional<double> slack_;
   Deadline deadline_;
   Watch watch_;
   BestLabelings best_;
