@@ -281,12 +281,13 @@ void check_outcome(const LabelingProblem& problem, const LabelingOutcome& outcom
     if (!meets_exclusions(problem, labeling.values))
       throw PluginError(plugin, "labelled two features with candidates that share a vertex");
   }
-  const double slack = rounding_slack(problem);
-  for (const Labeling& labeling : outcome.labelings)
-    if (const double cost = cost_of(problem, labeling.values); !(outcome.lower_bound <= cost + slack))
+  for (const Labeling& labeling : outcome.labelings) {
+    const double cost = cost_of(problem, labeling.values);
+    if (!(outcome.lower_bound <= cost) && !(outcome.lower_bound <= cost + rounding_slack(problem)))
       throw PluginError(plugin, "gave " + std::to_string(outcome.lower_bound) +
                                     " as the least that a labelling can cost, and one that costs " +
                                     std::to_string(cost));
+  }
   if (outcome.posteriors.empty()) return;
   bool sized = outcome.posteriors.size() == problem.variables.size();
   for (Index v = 0; sized && v < problem.variables.size(); ++v)

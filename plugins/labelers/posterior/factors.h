@@ -17,7 +17,7 @@ namespace toposcope::posterior {
 
 /// Costs over two or more variables, row-major, the last of the scope fastest.
 struct Factor {
-  std::vector<Index> scope;       ///< ascending
+  std::vector<Index> scope;
   std::span<const double> costs;  ///< `own`, or a table of the problem's
   std::vector<double> own = {};
 };
@@ -25,13 +25,61 @@ struct Factor {
 struct FactorGraph {
   std::vector<std::vector<Index>> values;  ///< per variable: the problem's values that are left, ascending
   std::vector<std::vector<double>> unary;  ///< per variable, per value left: finite
-  std::vector<Factor> factors;
+  std::vector<Factor> factors;             ///< several may have the same variables
   double constant = 0;
   bool impossible = false;  ///< a variable has no value left: no labelling has a finite cost
 
   Index variables() const { return static_cast<Index>(values.size()); }
   std::size_t domain(Index variable) const { return values[variable].size(); }
 };
+
+/// Adds a factor's table to one over the same variables in another order. An empty one is made. \throw OutOfTime
+inline void add_reordered(const FactorGraph& graph, const Factor& factor, const std::vector<Index>& scope,
+                          std::vector<double>& table, Watch& watch) {
+  const bool first = table.empty();
+  if (first) reserve_large(table, factor.costs.size());
+  if (first && scope == factor.scope) {
+    table.assign(factor.costs.begin(), factor.costs.end());
+    watch.poll(table.size());
+    return;
+  }
+  if (first) table.resize(factor.costs.size(), 0.0);
+  const std::size_t arity = scope.size(), width = graph.domain(factor.scope.back());
+  std::vector<std::size_t> stride(arity), digits(arity, 0);  // in `table`, of the factor's k-th variable
+  for (std::size_t k = 0; k < arity; ++k) {
+    stride[k] = 1;
+    for (std::size_t j = arity; scope[--j] != factor.scope[k];) stride[k] *= graph.domain(scope[j]);
+  }
+  std::size_t at = 0;
+  for (std::size_t entry = 0; entry < factor.costs.size(); entry += width) {
+    for (std::size_t i = 0; i < width; ++i) table[at + i * stride.back()] += factor.costs[entry + i];
+    watch.poll(2 * width);
+    for (std::size_t k = arity - 1; k-- > 0;) {
+      at += stride[k];
+      if (++digits[k] < graph.domain(factor.scope[k])) break;
+      at -= stride[k] * digits[k];
+      digits[k] = 0;
+    }
+  }
+}
+
+/// The same costs in one factor for each set of variables. \throw OutOfTime
+inline FactorGraph merged(const FactorGraph& graph, Watch& watch) {
+  FactorGraph made{graph.values, graph.unary, {}, graph.constant, graph.impossible};
+  for (const Factor& factor : graph.factors) {
+    const auto same = std::find_if(made.factors.begin(), made.factors.end(), [&](const Factor& other) {
+      return std::is_permutation(other.scope.begin(), other.scope.end(), factor.scope.begin(), factor.scope.end());
+    });
+    if (same == made.factors.end()) {
+      made.factors.push_back({factor.scope, factor.costs});
+      continue;
+    }
+    if (same->own.empty()) same->own.assign(same->costs.begin(), same->costs.end());
+    add_reordered(graph, factor, same->scope, same->own, watch);
+    same->costs = same->own;
+  }
+  return made;
+}
 
 namespace detail {
 
@@ -121,83 +169,69 @@ class GraphBuilder {
     }
   }
 
-  Factor* find(const std::vector<Index>& scope) {
-    for (Factor& factor : graph_.factors)
-      if (factor.scope == scope) return &factor;
-    return nullptr;
-  }
-
-  /// The factor over a scope, with a table of its own.
-  Factor& own_factor(const std::vector<Index>& scope) {
-    Factor* factor = find(scope);
-    if (!factor) {
-      std::size_t entries = 1;
-      for (const Index v : scope) entries *= graph_.domain(v);
-      graph_.factors.push_back({scope, {}, large_array<double>(entries, 0.0)});
-      factor = &graph_.factors.back();
-    } else if (factor->own.empty()) {
-      reserve_large(factor->own, factor->costs.size());
-      factor->own.assign(factor->costs.begin(), factor->costs.end());
-    }
-    factor->costs = factor->own;
-    return *factor;
-  }
-
   void add(const LabelingConstraint& constraint) {
-    std::vector<Index> scope = constraint.scope;
-    std::sort(scope.begin(), scope.end());
-    const std::size_t arity = scope.size();
+    const std::size_t arity = constraint.scope.size();
     if (arity == 1) {
-      for (std::size_t i = 0; i < graph_.domain(scope[0]); ++i)
-        graph_.unary[scope[0]][i] += constraint.costs[graph_.values[scope[0]][i]];
+      const Index v = constraint.scope[0];
+      for (std::size_t i = 0; i < graph_.domain(v); ++i) graph_.unary[v][i] += constraint.costs[graph_.values[v][i]];
       return;
     }
-    const bool whole = std::all_of(scope.begin(), scope.end(),
-                                   [&](Index v) { return graph_.domain(v) == problem_.variables[v].domain(); });
-    if (whole && scope == constraint.scope && !find(scope)) {
-      graph_.factors.push_back({scope, constraint.costs});
+    if (std::all_of(constraint.scope.begin(), constraint.scope.end(),
+                    [&](Index v) { return graph_.domain(v) == problem_.variables[v].domain(); })) {
+      graph_.factors.push_back({constraint.scope, constraint.costs});
       return;
     }
-    Factor& factor = own_factor(scope);
-    const std::vector<std::size_t> from = strides(constraint);
-    std::vector<std::size_t> to(arity, 1);  // in the factor, of the constraint's k-th variable
-    for (std::size_t k = 0; k < arity; ++k)
-      for (const Index v : scope)
-        if (v > constraint.scope[k]) to[k] *= graph_.domain(v);
-    digits_.assign(arity, 0);
+    Factor factor{constraint.scope, {}};
+    const std::vector<std::size_t> stride = strides(constraint);
     const std::vector<Index>& last = values(constraint, arity - 1);
-    const std::size_t rows = factor.own.size() / last.size();
-    for (std::size_t row = 0; row < rows; ++row) {
-      std::size_t source = 0, target = 0;
-      for (std::size_t k = 0; k + 1 < arity; ++k) {
-        source += from[k] * values(constraint, k)[digits_[k]];
-        target += to[k] * digits_[k];
-      }
-      for (std::size_t i = 0; i < last.size(); ++i)
-        factor.own[target + i * to.back()] += constraint.costs[source + last[i]];
+    std::size_t rows = 1;
+    for (std::size_t k = 0; k + 1 < arity; ++k) rows *= values(constraint, k).size();
+    digits_.assign(arity, 0);
+    for (; rows > 0; --rows) {
+      std::size_t row = 0;
+      for (std::size_t k = 0; k + 1 < arity; ++k) row += stride[k] * values(constraint, k)[digits_[k]];
+      for (const Index value : last) factor.own.push_back(constraint.costs[row + value]);
       watch_.poll(2 * last.size());
       for (std::size_t k = arity - 1; k-- > 0;) {
         if (++digits_[k] < values(constraint, k).size()) break;
         digits_[k] = 0;
       }
     }
+    factor.costs = factor.own;
+    graph_.factors.push_back(std::move(factor));
   }
 
+  /// Tables where none forbids already what the exclusions do: those of meshes do.
   void add_exclusions() {
+    const std::size_t tables = graph_.factors.size();
     for (Index v = 0; v < graph_.variables(); ++v)
       for (Index w = v + 1; w < graph_.variables(); ++w) {
         if (problem_.variables[v].candidates.empty() || problem_.variables[w].candidates.empty()) continue;
-        const std::size_t width = graph_.domain(w);
-        Factor* factor = find({v, w});
-        for (std::size_t i = 0; i < graph_.domain(v); ++i) {
-          for (std::size_t j = 0; j < width; ++j) {
-            if (!excluded(problem_, v, graph_.values[v][i], w, graph_.values[w][j])) continue;
-            if (factor && !(factor->costs[i * width + j] < forbidden)) continue;
-            factor = &own_factor({v, w});
-            factor->own[i * width + j] = forbidden;
-          }
-          watch_.poll(4 * width);
+        std::vector<const Factor*> same, turned;
+        const std::vector<Index> pair{v, w}, reversed{w, v};
+        for (std::size_t f = 0; f < tables; ++f) {
+          if (graph_.factors[f].scope == pair) same.push_back(&graph_.factors[f]);
+          if (graph_.factors[f].scope == reversed) turned.push_back(&graph_.factors[f]);
         }
+        const std::size_t height = graph_.domain(v), width = graph_.domain(w);
+        const auto forbids = [](std::size_t entry) {
+          return [entry](const Factor* factor) { return !(factor->costs[entry] < forbidden); };
+        };
+        Factor exclusion{{v, w}, {}};
+        for (std::size_t i = 0; i < height; ++i) {
+          for (std::size_t j = 0; j < width; ++j) {
+            if (!excluded(problem_, v, graph_.values[v][i], w, graph_.values[w][j]) ||
+                std::any_of(same.begin(), same.end(), forbids(i * width + j)) ||
+                std::any_of(turned.begin(), turned.end(), forbids(j * height + i)))
+              continue;
+            if (exclusion.own.empty()) exclusion.own.assign(height * width, 0.0);
+            exclusion.own[i * width + j] = forbidden;
+          }
+          watch_.poll(4 * width + tables / (i + 1));
+        }
+        if (exclusion.own.empty()) continue;
+        exclusion.costs = exclusion.own;
+        graph_.factors.push_back(std::move(exclusion));
       }
   }
 

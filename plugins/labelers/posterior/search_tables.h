@@ -55,8 +55,16 @@ class SearchTables {
     for (const Index v : order) root.insert(root.end(), graph.unary[v].begin(), graph.unary[v].end());
     std::vector<std::vector<Ordered>> ending(order.size());  // by the last variable of the scope
     for (const Factor& factor : graph.factors) {
-      Ordered ordered = in_search_order(factor, depth_of);
-      ending[ordered.scope.back()].push_back(std::move(ordered));
+      std::vector<Index> scope;
+      for (const Index v : factor.scope) scope.push_back(depth_of[v]);
+      std::sort(scope.begin(), scope.end());
+      std::vector<Ordered>& here = ending[scope.back()];
+      auto same = std::find_if(here.begin(), here.end(), [&](const Ordered& other) { return other.scope == scope; });
+      if (same == here.end()) same = here.insert(here.end(), {scope, {}});
+      for (Index& depth : scope) depth = order[depth];
+      add_reordered(graph, factor, scope, same->table, watch);
+      same->graded = same->graded || std::any_of(factor.costs.begin(), factor.costs.end(),
+                                                 [](double cost) { return cost != 0 && cost < forbidden; });
     }
     std::vector<double> shared;
     // From the last variable to the first: what its values cost is shared out among the factors that end at it, so that
@@ -106,39 +114,6 @@ class SearchTables {
     std::vector<double> table;
     bool graded = false;  ///< false: it only forbids
   };
-
-  Ordered in_search_order(const Factor& factor, const std::vector<Index>& depth_of) {
-    Ordered ordered;
-    for (const Index v : factor.scope) ordered.scope.push_back(depth_of[v]);
-    std::sort(ordered.scope.begin(), ordered.scope.end());
-    const std::size_t arity = ordered.scope.size();
-    std::vector<std::size_t> stride(arity, 1), digits(arity, 0);  // of the factor's k-th variable in our table
-    for (std::size_t k = 0; k < arity; ++k)
-      for (const Index depth : ordered.scope)
-        if (depth > depth_of[factor.scope[k]]) stride[k] *= domain(depth);
-    ordered.graded = std::any_of(factor.costs.begin(), factor.costs.end(),
-                                 [](double cost) { return cost != 0 && cost < forbidden; });
-    if (std::is_sorted(stride.rbegin(), stride.rend())) {
-      reserve_large(ordered.table, factor.costs.size());
-      ordered.table.assign(factor.costs.begin(), factor.costs.end());
-      watch_.poll(ordered.table.size());
-      return ordered;
-    }
-    ordered.table = large_array<double>(factor.costs.size());
-    const std::size_t width = graph_.domain(factor.scope.back());
-    std::size_t at = 0;
-    for (std::size_t entry = 0; entry < factor.costs.size(); entry += width) {
-      for (std::size_t i = 0; i < width; ++i) ordered.table[at + i * stride.back()] = factor.costs[entry + i];
-      watch_.poll(2 * width);
-      for (std::size_t k = arity - 1; k-- > 0;) {
-        at += stride[k];
-        if (++digits[k] < graph_.domain(factor.scope[k])) break;
-        at -= stride[k] * digits[k];
-        digits[k] = 0;
-      }
-    }
-    return ordered;
-  }
 
   // Minima over the last variable, the last two, ... and the differences between one such table and the next.
   void add_increments(const std::vector<Index>& scope, std::vector<double> table) {

@@ -99,6 +99,26 @@ TEST_F(Pipeline, ReadsEveryStation) {
   EXPECT_EQ(Options(circle).integer("restarts"), 3);
 }
 
+TEST_F(Pipeline, WhatMakesTheProbabilitiesIsAStationOfItsOwn) {
+  EXPECT_FALSE(read(whole).marginals);
+  PipelineManifest pipeline = read(whole + "marginals: {plugin: exact, nodes: 5}\n");
+  ASSERT_TRUE(pipeline.marginals);
+  EXPECT_EQ(pipeline.marginals->plugin, "exact");
+  EXPECT_EQ(Options(pipeline.marginals->options).integer("nodes"), 5);
+  EXPECT_EQ(pipeline.labeler.plugin, "least-error");
+  apply_override(pipeline, "marginals.nodes=6", catalog());
+  EXPECT_EQ(Options(pipeline.marginals->options).integer("nodes"), 6);
+  set_labeler(pipeline, "exact", catalog());
+  EXPECT_EQ(Options(pipeline.labeler.options).integer("nodes"), 1000);
+  EXPECT_EQ(Options(pipeline.marginals->options).integer("nodes"), 6) << "another labeler changes the labelling alone";
+  EXPECT_THAT(error_of(whole + "marginals: {plugin: exat}\n"), AllOf(HasSubstr(at(10, 21)), HasSubstr("'exact'?")));
+  EXPECT_THAT(error_of(whole + "marginals: {plugin: circle}\n"), HasSubstr("'circle' is a shape"));
+  EXPECT_THAT(error_of(whole + "marginals: {plugin: exact, nodes: 0}\n"), HasSubstr(at(10, 28)));
+  EXPECT_THAT(error_of(whole + "marginals: {nodes: 5}\n"), HasSubstr("plugin"));
+  EXPECT_THAT(set_error("marginals.nodes=6"), AllOf(HasSubstr("no station 'marginals'"), HasSubstr("posterior")));
+  EXPECT_THAT(set_error("marginal.nodes=6"), HasSubstr("'marginals'?"));
+}
+
 TEST_F(Pipeline, ShapesAndRelationsNotNamedTakeTheirDefaults) {
   const PipelineManifest pipeline = read(head + "worksets: {plugin: curvature}\nlabeler: {plugin: exact}\n");
   EXPECT_TRUE(pipeline.filters.empty());

@@ -362,8 +362,28 @@ TEST(Posterior, TimeLimitAndCancelling) {
     }
 }
 
-TEST(Posterior, SameAnswerEveryRun) {
+// More nodes than are tried at once: sums are made from coarse to fine, and each states its error.
+TEST(Posterior, SumsFromCoarseToFineHoldWhatTheyState) {
   const LabelingProblem problem = large(7, 9, 12);
+  const LabelingOutcome exact = solve(problem, {{"method", "elimination"}});
+  ASSERT_EQ(exact.guarantee.substr(0, 5), "exact");
+  for (const double limit_s : {0.05, 0.2, 0.8, 60.0}) {
+    const LabelingOutcome outcome = solve(problem, {{"method", "search"}}, {.time_limit_s = limit_s});
+    SCOPED_TRACE(std::to_string(limit_s) + " s: " + outcome.guarantee);
+    EXPECT_LE(outcome.lower_bound, exact.labelings.front().cost);
+    if (fact(outcome, "method") != "search") continue;  // out of time before the first
+    const double stated = std::stod(fact(outcome, "left out")) * 1.01 + 1e-11;
+    EXPECT_EQ(outcome.guarantee.substr(0, 5), stated < 2e-11 ? "exact" : "stopp");
+    EXPECT_NEAR(outcome.log_evidence, exact.log_evidence, 1.2 * stated);
+    for (std::size_t v = 0; v < exact.posteriors.size(); ++v)
+      for (std::size_t value = 0; value < exact.posteriors[v].size(); ++value)
+        EXPECT_NEAR(outcome.posteriors[v][value], exact.posteriors[v][value], stated);
+    EXPECT_EQ(outcome.labelings.front().values, exact.labelings.front().values);
+  }
+}
+
+TEST(Posterior, SameAnswerEveryRun) {
+  const LabelingProblem problem = large(6, 9, 9);
   for (const char* method : {"auto", "elimination", "search", "belief-propagation"}) {
     const LabelingOutcome a = solve(problem, {{"method", method}, {"max_entries", "1e9"}});
     const LabelingOutcome b = solve(problem, {{"method", method}, {"max_entries", "1e9"}});
