@@ -34,6 +34,7 @@ class CostTables {
 
   /// Values of all variables in one row: value `a` of variable v is position offset(v) + a.
   std::size_t offset(Index v) const { return offsets_[v]; }
+  std::size_t domain(Index v) const { return offsets_[v + 1] - offsets_[v]; }
   std::size_t positions() const { return offsets_.back(); }
   Index owner(std::size_t position) const { return owners_[position]; }
   /// Row of the conflict table, or `no_candidate`.
