@@ -100,9 +100,16 @@ std::int32_t ConditionalCosts::excluders(Index v, Index value) const {
   return used_[candidate] - (own_conflict(v, candidate) ? 1 : 0);
 }
 
-Index ConditionalCosts::excluder(Index v, Index value) const {
-  const Index candidate = tables_.candidates_[at(v, value)];
-  return static_cast<Index>(users_[candidate] - (own_conflict(v, candidate) ? v : 0));
+Index ConditionalCosts::sole_opponent(Index v, Index value) const {
+  if (broken_of(v, value) != 1) return v;
+  if (entries_[at(v, value)] == 0) {
+    const Index candidate = tables_.candidates_[at(v, value)];
+    return static_cast<Index>(users_[candidate] - (own_conflict(v, candidate) ? v : 0));
+  }
+  for (const CostTables::Pair& pair : tables_.pairs_[v])
+    if (pair.entries != nullptr && pair.entries[value * tables_.domain(pair.other) + values_[pair.other]] != 0)
+      return pair.other;
+  return v;
 }
 
 void ConditionalCosts::use(Index v, std::size_t position, std::int32_t sign) {
@@ -141,7 +148,7 @@ void ConditionalCosts::assign(Index v, Index value) {
   cost_ += cost_change(v, value);
   broken_ += broken_change(v, value);
   for (const CostTables::Pair& pair : tables_.pairs_[v]) {
-    const std::size_t first = tables_.offsets_[pair.other], domain = tables_.offsets_[pair.other + 1] - first;
+    const std::size_t first = tables_.offsets_[pair.other], domain = tables_.domain(pair.other);
     if (pair.costs != nullptr)
       add(pair.costs + from * domain, pair.costs + value * domain, costs_.data() + first, domain);
     if (pair.entries != nullptr)

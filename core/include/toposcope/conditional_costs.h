@@ -34,6 +34,7 @@ class CostTables {
 
   /// Values of all variables in one row: value `a` of variable v is position offset(v) + a.
   std::size_t offset(Index v) const { return offsets_[v]; }
+  std::size_t domain(Index v) const { return offsets_[v + 1] - offsets_[v]; }
   std::size_t positions() const { return offsets_.back(); }
   Index owner(std::size_t position) const { return owners_[position]; }
   /// Row of the conflict table, or `no_candidate`.
@@ -100,10 +101,11 @@ class ConditionalCosts {
   double cost_change(Index v, Index value) const { return costs_[at(v, value)] - costs_[at(v, values_[v])]; }
   /// What `broken` would change by.
   std::int32_t broken_change(Index v, Index value) const { return broken_of(v, value) - broken_of(v, values_[v]); }
-  /// Other variables whose present candidates exclude this value.
+  /// Exclusions that the value would break.
   std::int32_t excluders(Index v, Index value) const;
-  /// The one that does, where `excluders` is 1.
-  Index excluder(Index v, Index value) const;
+  /// Where the value would break one exclusion or one constraint over two variables and no more: the other variable.
+  /// Else `v` itself.
+  Index sole_opponent(Index v, Index value) const;
 
  private:
   std::size_t at(Index v, Index value) const { return tables_.offsets_[v] + value; }

@@ -170,7 +170,7 @@ class Annealing final : public Labeler {
 };
 
 constexpr OptionSpec options[] = {
-    {"sweeps", OptionType::integer, "", "400", "1", "1000000000",
+    {"sweeps", OptionType::integer, "", "1000", "1", "1000000000",
      "of a run, from the start to the end temperature; a sweep proposes as many moves as there are values"},
     {"runs", OptionType::integer, "", "16", "1", "100000",
      "from different random beginnings; the first two are a sixteenth and a quarter as long"},

@@ -25,12 +25,14 @@ class Run {
 
   void anneal(std::uint64_t sweeps) {
     start(random_values(tables_, random_));
-    double penalty = schedule_.penalty;
-    // Where what is left breaks a constraint, again with dearer ones.
-    for (int reheat = 0; reheat <= reheats; ++reheat, penalty *= 2) {
-      cool(sweeps, penalty);
-      if (stopped_) return;
-      if (costs_.broken() == 0 || !best_.labelings().empty()) break;
+    Schedule schedule = schedule_;
+    for (int reheat = 0; reheat <= reheats; ++reheat) {
+      cool(sweeps, schedule);
+      if (stopped_ || !best_.labelings().empty()) return;
+      // What is left breaks a constraint: again from there, hotter, and with dearer ones where they compete with costs.
+      schedule.start *= 2;
+      schedule.end *= 2;
+      if (!schedule.hard_only) schedule.penalty *= 4;
     }
   }
 
@@ -48,11 +50,11 @@ class Run {
     offer();
   }
 
-  void cool(std::uint64_t sweeps, double penalty) {
+  void cool(std::uint64_t sweeps, const Schedule& schedule) {
     const double steps = static_cast<double>(std::max<std::uint64_t>(sweeps, 2) - 1);
     for (std::uint64_t sweep = 0; sweep < sweeps && !stopped_ && !done(); ++sweep) {
       const double part = static_cast<double>(sweep) / steps;
-      this->sweep(schedule_.start * std::pow(schedule_.end / schedule_.start, part), penalty);
+      this->sweep(schedule.start * std::pow(schedule.end / schedule.start, part), schedule.penalty);
     }
     finish();
   }
@@ -74,8 +76,8 @@ class Run {
       if (accept(change, temperature)) {
         move(v, value);
         offer();
-      } else if (costs_.excluders(v, value) == 1) {
-        steal(v, value, temperature, penalty);
+      } else if (const Index opponent = costs_.sole_opponent(v, value); opponent != v) {
+        oust(v, value, opponent, temperature, penalty);
       }
     }
   }
@@ -92,24 +94,24 @@ class Run {
     ++moves_;
   }
 
-  // Takes the candidate from the variable that has it, which then does the best it can.
-  void steal(Index v, Index value, double temperature, double penalty) {
-    const Index from = costs_.values()[v], loser = costs_.excluder(v, value);
+  // Where one variable stands in the way, by its candidate or a forbidden pair: it makes way as cheaply as it can.
+  void oust(Index v, Index value, Index opponent, double temperature, double penalty) {
+    const Index from = costs_.values()[v];
     const double change = costs_.cost_change(v, value) + penalty * (costs_.broken_change(v, value) - 1);
     if (!accept(change, temperature)) return;
     move(v, value);
-    Index best = costs_.values()[loser];
+    Index best = costs_.values()[opponent];
     double least = forbidden;
-    for (const std::uint32_t position : tables_.allowed(loser)) {
-      const auto other = static_cast<Index>(position - tables_.offset(loser));
-      const double loss = costs_.cost_change(loser, other) + penalty * costs_.broken_change(loser, other);
-      if (other == costs_.values()[loser] || loss >= least) continue;
+    for (const std::uint32_t position : tables_.allowed(opponent)) {
+      const auto other = static_cast<Index>(position - tables_.offset(opponent));
+      const double loss = costs_.cost_change(opponent, other) + penalty * costs_.broken_change(opponent, other);
+      if (other == costs_.values()[opponent] || loss >= least) continue;
       best = other;
       least = loss;
     }
-    // `change` left out that the exclusion is broken until the loser has moved.
+    // `change` left out what is broken until the opponent has moved.
     if (least < forbidden && accept(change + penalty + least, temperature)) {
-      move(loser, best);
+      move(opponent, best);
       offer();
     } else {
       move(v, from);
