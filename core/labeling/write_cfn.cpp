@@ -35,8 +35,8 @@ class Names {
 
 class Writer {
  public:
-  Writer(const LabelingProblem& problem, double upper_bound, bool maximize)
-      : problem_(problem), sign_(maximize ? -1 : 1), functions_(cost_functions(problem)) {
+  Writer(const LabelingProblem& problem, double upper_bound, bool maximize, const std::function<bool()>& stop)
+      : problem_(problem), sign_(maximize ? -1 : 1), stop_(stop), functions_(cost_functions(problem)) {
     find_bounds(upper_bound);
   }
 
@@ -52,7 +52,10 @@ class Writer {
       number(problem_.constant);
       made_.text += "]}";
     }
-    for (const CostFunction& each : functions_) function(each);
+    for (const CostFunction& each : functions_) {
+      if (stopped()) break;
+      function(each);
+    }
     made_.text += "\n}\n}\n";
     return std::move(made_);
   }
@@ -63,6 +66,7 @@ class Writer {
     double greatest = problem_.constant, gain = std::min(0.0, problem_.constant);
     std::vector<double> table;
     for (const CostFunction& each : functions_) {
+      if (stopped()) return;
       fill_table(problem_, each, table);
       const CostRange range = finite_range(table);
       greatest += range.greatest;
@@ -89,6 +93,8 @@ class Writer {
     if (*first == '-' && std::all_of(first + 1, end, [](char c) { return c == '0' || c == '.'; })) ++first;
     made_.text.append(first, end);
   }
+
+  bool stopped() const { return stop_ && stop_(); }
 
   void separate(bool& first) {
     if (!first) made_.text += ',';
@@ -151,6 +157,7 @@ class Writer {
 
   const LabelingProblem& problem_;
   double sign_;
+  const std::function<bool()>& stop_;
   std::vector<CostFunction> functions_;
   WrittenProblem made_;
   double top_ = 0, forbidden_ = 0;
@@ -162,9 +169,10 @@ class Writer {
 
 }  // namespace
 
-WrittenProblem write_cfn(const LabelingProblem& problem, double upper_bound, bool maximize) {
+WrittenProblem write_cfn(const LabelingProblem& problem, double upper_bound, bool maximize,
+                         const std::function<bool()>& stop) {
   check(problem);
-  return Writer(problem, upper_bound, maximize).write();
+  return Writer(problem, upper_bound, maximize, stop).write();
 }
 
 }  // namespace toposcope

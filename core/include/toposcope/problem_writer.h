@@ -4,6 +4,7 @@
 // Labelling problems as toulbar2 and others read them. Exclusions become hard functions over two variables, forbidden
 // entries costs that reach the bound; violations and detectabilities are left out.
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -24,9 +25,10 @@ struct WrittenProblem {
 /// allow in names become '_', and names that would be equal are numbered.
 /// \param upper_bound  labellings of this cost or more are no solutions
 /// \param maximize     writes minus the costs, to be maximised
+/// \param stop         asked before each function; once true, the text is left unfinished
 /// \throw std::invalid_argument  `check(problem)` fails, or costs are too large for 15 digits
 WrittenProblem write_cfn(const LabelingProblem& problem, double upper_bound = std::numeric_limits<double>::infinity(),
-                         bool maximize = false);
+                         bool maximize = false, const std::function<bool()>& stop = {});
 
 /// Weighted CSP (.wcsp): integer costs, no names.
 /// \throw std::invalid_argument  as above
