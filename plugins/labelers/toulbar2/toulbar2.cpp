@@ -43,7 +43,8 @@ LabelingOutcome proven(const LabelingProblem& problem, const SolverOutput& outpu
   }
   if (output.values.empty()) throw std::runtime_error("toulbar2 proved an optimum but printed no labelling");
   outcome.labelings = {{output.values, cost_of(problem, output.values)}};
-  outcome.lower_bound = outcome.labelings[0].cost - rounding_of(problem, written);
+  const bool whole = written.exact && written.decimals == 0;  // sums without rounding
+  outcome.lower_bound = outcome.labelings[0].cost - (whole ? 0 : rounding_of(problem, written));
   outcome.guarantee = "least cost: proven by toulbar2";
   if (!written.exact)
     outcome.guarantee += ", each cost rounded to " + std::to_string(written.decimals) + " digits after the point";
