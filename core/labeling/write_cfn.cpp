@@ -81,7 +81,9 @@ class Writer {
       return (nearest / scale == value ? nearest : std::ceil(value * scale)) / scale;
     };
     top_ = up(std::min(greatest + 1, upper_bound));
-    forbidden_ = up(std::max(0.0, top_ - gain));
+    // What is gained is written rounded.
+    const double margin = gain < 0 ? static_cast<double>(functions_.size() + 2) / scale : 0;
+    forbidden_ = up(std::max(0.0, top_ - gain + margin));
   }
 
   void number(double cost) {

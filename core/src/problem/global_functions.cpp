@@ -594,8 +594,9 @@ void add_global_function(ProblemBuilder& builder, const ProblemText& text, const
     }
     known.push_back(word);
   }
-  text.fail(keyword, "the cost function " + ProblemText::name(keyword) + " is not supported; " +
-                         name_remedy(keyword.text, known) + ". Write it as a table of costs");
+  const std::string remedy = name_remedy(keyword.text, known);
+  text.fail(keyword, "the cost function " + ProblemText::name(keyword) + " is not supported; " + remedy +
+                         (remedy.ends_with('?') ? " " : ". ") + "Otherwise write it as a table of costs");
 }
 
 }  // namespace toposcope

@@ -6,6 +6,13 @@
 #include "toposcope/labeling_tools.h"
 
 namespace toposcope {
+namespace {
+
+double least_below_zero(const std::vector<double>& costs) {
+  return std::min(0.0, *std::min_element(costs.begin(), costs.end()));
+}
+
+}  // namespace
 
 void ProblemBuilder::add_variable(const ProblemToken& at, std::string name, std::int64_t domain,
                                   std::vector<std::string> value_names) {
@@ -78,12 +85,9 @@ void ProblemBuilder::tabulate_pairs(const ProblemToken& at, const std::string& n
 
 // The bound, less the least that all functions together may give.
 void ProblemBuilder::find_threshold() {
-  const auto least = [](const std::vector<double>& costs) {
-    return std::min(0.0, *std::min_element(costs.begin(), costs.end()));
-  };
   threshold_ = file_.top - std::min(0.0, problem().constant);
-  for (const LabelingVariable& variable : problem().variables) threshold_ -= least(variable.costs);
-  for (const LabelingConstraint& constraint : problem().constraints) threshold_ -= least(constraint.costs);
+  for (const LabelingVariable& variable : problem().variables) threshold_ -= least_below_zero(variable.costs);
+  for (const LabelingConstraint& constraint : problem().constraints) threshold_ -= least_below_zero(constraint.costs);
 }
 
 ProblemFile ProblemBuilder::finish() {
@@ -92,8 +96,9 @@ ProblemFile ProblemBuilder::finish() {
   for (const auto& add : last_) add();
   find_threshold();
   const auto forbid = [this](std::vector<double>& costs) {
+    const double reaches = threshold_ + least_below_zero(costs);  // with the least of all other functions
     for (double& cost : costs)
-      if (cost >= threshold_) cost = forbidden;
+      if (cost >= reaches) cost = forbidden;
   };
   for (LabelingVariable& variable : problem().variables) forbid(variable.costs);
   for (LabelingConstraint& constraint : problem().constraints) forbid(constraint.costs);

@@ -170,7 +170,7 @@ class Reader {
       token = text_.need("the costs of function '" + name + "'");
     }
     if (opens(token)) {
-      table(at, name, std::move(scope), default_cost);
+      table(at, name, !opens(at), std::move(scope), default_cost);
     } else if (!tagged_ && opens(text_.peek())) {
       return global(token, name, scope);
     } else {
@@ -194,7 +194,7 @@ class Reader {
   }
 
   // From after the opening to after the closing bracket of the costs.
-  void table(const ProblemToken& at, const std::string& name, std::vector<Index> scope,
+  void table(const ProblemToken& at, const std::string& name, bool named, std::vector<Index> scope,
              std::optional<double> default_cost) {
     std::vector<double> costs(builder_.table_size(at, scope, most_table_entries), default_cost.value_or(0));
     std::size_t given = 0;
@@ -218,9 +218,11 @@ class Reader {
     if (!default_cost && given != costs.size())
       text_.fail(at, "function '" + name + "' has " + std::to_string(given) + " costs; its scope has " +
                          std::to_string(costs.size()) + " tuples. Give all, or a defaultcost");
-    Table& place = tables_[name];
-    place = {scope, builder_.problem().constraints.size(), {}};
-    if (scope.size() < 2) place.costs = costs;
+    if (named) {
+      Table& place = tables_[name];
+      place = {scope, builder_.problem().constraints.size(), {}};
+      if (scope.size() < 2) place.costs = costs;
+    }
     builder_.add_table(at, name, std::move(scope), std::move(costs));
   }
 

@@ -52,6 +52,11 @@ class Writer {
         text_ += "null";
         return;
       }
+    if constexpr (std::is_floating_point_v<Number>)
+      if (value == 0 && std::signbit(value)) {  // "-0" would be read as a whole number
+        text_ += "-0.0";
+        return;
+      }
     std::array<char, 32> buffer{};
     text_.append(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr);
   }

@@ -53,8 +53,8 @@ inline SolverOutput parse_output(const std::string& text, const LabelingProblem&
     for (const std::string start : {"Initial lower and upper bounds: [", "Optimality gap: ["})
       if (line.starts_with(start)) output.lower_bound = std::strtod(line.c_str() + start.size(), nullptr);
     output.optimal = output.optimal || line.starts_with("Optimum:");
-    output.unsatisfiable = output.unsatisfiable || line.starts_with("No solution in");
-    if (line.starts_with("Optimum:") || line.starts_with("No solution in")) {
+    output.unsatisfiable = output.unsatisfiable || line.starts_with("No solution");
+    if (line.starts_with("Optimum:") || line.starts_with("No solution")) {
       output.backtracks = number_before(line, "backtracks");
       output.nodes = number_before(line, "nodes");
     }
