@@ -282,7 +282,7 @@ TEST(ProblemFiles, CfnWithAllItsFreedoms) {
   g: {scope: [b c] type: "wsum" params: {metric: lin cost: 2 comparator: "<=" to: 3}}
 }})";
   EXPECT_THAT(refusal([&] { read_cfn("x.cfn", tagged); }),
-              HasSubstr("x.cfn:6:41: function 'f1' uses the costs of 'f2'"));
+              HasSubstr("x.cfn:6:40: function 'f1' uses the costs of 'f2'"));
   std::string text = tagged;
   text.replace(text.find("[\"a\", \"b\"], \"costs\""), 10, "[\"c\", \"b\"]");
   const ProblemFile file = read_cfn("x.cfn", text);
@@ -304,6 +304,67 @@ TEST(ProblemFiles, CfnWithAllItsFreedoms) {
   EXPECT_EQ(plain.variables[2].name, "2");
   EXPECT_EQ(cost_of(plain, std::vector<Index>{0, 2, 3}), 3 + 11 + 3 + 2 * 2 + 2);
   EXPECT_EQ(cost_of(plain, std::vector<Index>{1, 0, 1}), 0.5 + 1 + 1 + 0 + 2);
+}
+
+// What .cfn tags and groups, .wcsp has in a row: the same tables come of both.
+TEST(ProblemFiles, ParametersOfBothFormatsMeanTheSame) {
+  struct Case {
+    const char *type, *cfn, *wcsp;
+  };
+  const Case cases[] = {
+      {"<", "1 2", "1 2"},
+      {"disj", "[1, 2, 9]", "1 2 9"},
+      {"sdisj", "[1 2 2 2 4 5]", "1 2 2 2 4 5"},
+      {"salldiff", "metric: var cost: 3", "var 3"},
+      {"sgcc", "metric: var cost: 3 bounds: [[0 1 2][2 0 1]]", "var 3 2 0 1 2 2 0 1"},
+      {"sgcc", "metric: wdec cost: 3 bounds: [[0 1 2 4 5]]", "wdec 3 1 0 1 2 4 5"},
+      {"ssame", "cost: 3 vars1: [v0 v3] vars2: [1 v2]", "3 2 2 0 3 1 2"},
+      {"sregular", "metric: var cost: 3 nb_states: 2 starts: [0] ends: [0 1] transitions: [[0 0 0][0 1 1][1 1 1]]",
+       "var 3 2 1 0 2 0 1 3 0 0 0 0 1 1 1 1 1"},
+      {"sgrammar",
+       "metric: var cost: 3 nb_symbols: 4 nb_values: 2 start: 0 terminals: [[1 0][3 1]] "
+       "non_terminals: [[0 0 0][0 1 2][0 1 3][2 0 3]]",
+       "var 3 4 2 0 6 0 1 0 0 3 1 1 0 0 0 1 0 1 2 1 0 1 3 1 2 0 3"},
+      {"sgrammardp",
+       "metric: weight cost: 3 nb_symbols: 2 nb_values: 2 start: 0 terminals: [[1 0 2][1 1 5]] "
+       "non_terminals: [[0 0 1 4][0 1 1 1]]",
+       "weight 3 2 2 0 4 2 1 0 2 2 1 1 5 3 0 0 1 4 3 0 1 1 1"},
+      {"samong", "metric: var cost: 3 min: 1 max: 2 values: [0 2]", "var 3 1 2 2 0 2"},
+      {"salldiffdp", "metric: var cost: 3", "var 3"},
+      {"smaxdp", "defaultcost: 3 tuples: [[v0 0 4] [1 1 3][2 2 2]]", "3 3 0 0 4 1 1 3 2 2 2"},
+      {"clique", "rhs: 1 values: [[0] [1 2] [] [2]]", "1 1 0 2 1 2 0 1 2"},
+      {"wregular", "nb_states: 2 starts: [[0 1]] ends: [[1 2]] transitions: [[0 0 1 3][1 2 1 4]]",
+       "2 1 0 1 1 1 2 2 0 0 1 3 1 2 1 4"},
+      {"wgcc", "metric: lin cost: 3 bounds: [[0 0 1][1 2 2]]", "lin 3 2 0 0 1 1 2 2"},
+      {"wsame", "metric: lin cost: 3", "lin 3"},
+      {"wsamegcc", "metric: lin cost: 3 bounds: [[0 0 1][1 0 1]]", "lin 3 2 0 0 1 1 0 1"},
+      {"wamong", "metric: lin cost: 3 values: [0 1] min: 1 max: 2", "lin 3 2 0 1 1 2"},
+      {"wvaramong", "metric: hard cost: 3 values: [1]", "hard 3 1 1"},
+      {"woverlap", "metric: quad cost: 3 comparator: > to: 1", "quad 3 > 1"},
+      {"wsum", "metric: lin cost: 3 comparator: \"<=\" to: 4", "lin 3 <= 4"},
+      {"wvarsum", "metric: hard cost: 3 comparator: ==", "hard 3 =="},
+      {"MST", "", ""},
+      {"knapsackv", "capacity: 4 weightedvalues: [[v0 1 2][v1 2 3]]", "4 2 0 1 2 1 2 3"},
+      {"wdiverse", "distance: 2 values: [0 1 2 0]", "2 0 1 2 0"},
+  };
+  for (const Case& each : cases) {
+    const std::string type = each.type;
+    const bool two = type == "<" || type == "disj" || type == "sdisj";
+    const std::string parameters = each.cfn[0] == '[' ? each.cfn : "{" + std::string(each.cfn) + "}";
+    const ProblemFile cfn = read_cfn(
+        "x.cfn", "{problem {name p mustbe <100} variables {v0 3 v1 3 v2 3 v3 3} functions {f0 {scope [" +
+                     std::string(two ? "v0 v1" : "v0 v1 v2 v3") + "] type: " + type + " params: " + parameters + "}}}");
+    const ProblemFile wcsp = read_wcsp("x.wcsp", "p 4 3 1 100\n3 3 3 3\n" + std::string(two ? "2 0 1" : "4 0 1 2 3") +
+                                                     " -1 " + type + " " + each.wcsp + "\n");
+    ASSERT_EQ(cfn.problem.constraints.size(), wcsp.problem.constraints.size()) << type;
+    ASSERT_FALSE(cfn.problem.constraints.empty()) << type;
+    for (std::size_t c = 0; c < cfn.problem.constraints.size(); ++c)
+      EXPECT_EQ(cfn.problem.constraints[c].costs, wcsp.problem.constraints[c].costs) << type;
+  }
+  const ProblemFile knapsack = read_cfn("x.cfn",
+                                        "{problem {name p mustbe <100} variables {a 2 b 2} functions {f {scope [a b] "
+                                        "type knapsack params {capacity: 2 weights: [1 -2]}}}}");
+  EXPECT_EQ(knapsack.problem.constraints[0].costs, (std::vector<double>{forbidden, forbidden, forbidden, forbidden}));
 }
 
 TEST(ProblemFiles, TheTopBoundsTheSum) {
