@@ -33,6 +33,8 @@ class Reader {
       const std::size_t detail = what.find(": ", what.find("column"));
       throw UsageError(name + ":" + std::to_string(line) + ":" + std::to_string(column) +
                        ": is no JSON: " + (detail == what.npos ? what : what.substr(detail + 2)));
+    } catch (const Json::exception& error) {
+      throw UsageError(name + ": " + error.what() + "; numbers are at most about 1.8e308");
     }
   }
 

@@ -469,6 +469,7 @@ TEST(ProblemFiles, RefusalsNameThePlaceAndTheRemedy) {
               }),
               HasSubstr("a.json:4:28: there is no variable 1"));
   EXPECT_THAT(refusal([&] { read_problem_json("a.json", begin + "\"costs\": []}]}"); }), HasSubstr("has no values"));
+  EXPECT_THAT(refusal([&] { read_problem_json("a.json", begin + "\"costs\": [1e999]}]}"); }), HasSubstr("1e999"));
   EXPECT_THAT(refusal([] { read_problem("a.txt"); }), HasSubstr("known are .json, .cfn, .wcsp and .uai"));
   EXPECT_THAT(refusal([] { read_problem("no-such.cfn"); }), HasSubstr("no-such.cfn: no such file"));
   LabelingProblem large;
