@@ -124,16 +124,23 @@ std::string as_text(const LabelingProblem& problem, const LabelingOutcome& outco
 void cut_at_top(LabelingOutcome& outcome, double top) {
   if (!(top < forbidden)) return;
   std::erase_if(outcome.labelings, [&](const Labeling& labeling) { return labeling.cost >= top; });
-  if (outcome.labelings.empty() && outcome.optimal) outcome.guarantee += "; none costs less than the file's top cost";
+  if (outcome.labelings.empty() && outcome.optimal) {
+    outcome.lower_bound = forbidden;
+    outcome.guarantee += "; none costs less than the file's top cost";
+  }
 }
 
 }  // namespace
 
 int label(const LabelOptions& options) {
   Session session(options);
+  if (!options.save.empty()) require_problem_extension(options.save);
   const ProblemFile file = read_problem(options.problem);
   const LabelingProblem& problem = file.problem;
-  if (!options.save.empty()) write_problem(options.save, problem);
+  for (const std::string& warning : file.warnings) session.context().log(LogLevel::warning, warning);
+  if (!options.save.empty())
+    for (const std::string& note : write_problem(options.save, file))
+      session.context().log(LogLevel::info, options.save.string() + ": " + note);
   const std::string id = options.labeler.empty() ? "least-error" : options.labeler;
   const auto solve = [&](const Labeler& labeler, const std::string& plugin) {
     LabelingOutcome outcome = guard(plugin, [&] {
@@ -157,6 +164,7 @@ int label(const LabelOptions& options) {
     outcome.log_evidence = sums.log_evidence;
     outcome.facts.push_back({"probabilities", sums.guarantee});
   }
+  if (file.maximize) outcome.facts.push_back({"maximised", "costs are minus the values, which the file maximises"});
   session.status("");
   fmt::print("{}", options.json ? as_json(problem, outcome, id, time_ms) : as_text(problem, outcome, id, time_ms));
   return session.context().cancelled() ? interrupted_exit_code : 0;

@@ -26,6 +26,12 @@ void print_table(const char* title, const std::vector<OptionRow>& rows) {
   }
 }
 
+/// "; not available: needs the program ..."; empty where nothing is missing.
+std::string availability(const PluginManifest& plugin) {
+  const std::string missing = missing_programs(plugin);
+  return missing.empty() ? "" : "; not available: " + missing;
+}
+
 const PluginManifest& find(const PluginCatalog& catalog, const std::string& id) {
   std::vector<std::string> known;
   for (PluginKind kind : kinds) {
@@ -51,7 +57,8 @@ int plugins_list(const PluginsOptions& options) {
                                    {"id", plugin->id},
                                    {"version", plugin->version},
                                    {"summary", plugin->summary},
-                                   {"library", plugin->library.string()}});
+                                   {"library", plugin->library.string()},
+                                   {"not_available", missing_programs(*plugin)}});
     for (const PluginProblem& problem : catalog.problems())
       root["problems"].push_back({{"file", problem.file.string()}, {"message", problem.message}});
     fmt::print("{}\n", root.dump(1));
@@ -60,7 +67,7 @@ int plugins_list(const PluginsOptions& options) {
   for (PluginKind kind : kinds) {
     fmt::print("{}\n", to_string(kind));
     for (const PluginManifest* plugin : catalog.all(kind))
-      fmt::print("  {:<22}{:<8} {}\n", plugin->id, plugin->version, plugin->summary);
+      fmt::print("  {:<22}{:<8} {}{}\n", plugin->id, plugin->version, plugin->summary, availability(*plugin));
   }
   if (!catalog.problems().empty()) fmt::print("cannot be used\n");
   for (const PluginProblem& problem : catalog.problems()) fmt::print("  {}\n", problem.message);
@@ -77,6 +84,7 @@ int plugins_describe(const PluginsOptions& options) {
   fmt::print("{} {} ({})\n{}\n", plugin.id, plugin.version, to_string(plugin.kind), plugin.summary);
   if (!plugin.citation.empty()) fmt::print("source: {}\n", plugin.citation);
   if (!plugin.unit.empty()) fmt::print("residual in: {}\n", plugin.unit);
+  if (!plugin.programs.empty()) fmt::print("runs: {}{}\n", fmt::join(plugin.programs, ", "), availability(plugin));
   if (!plugin.provides.empty()) fmt::print("\nprovides:\n");
   for (const ProvidedRow& row : plugin.provides) fmt::print("  {:<14}{}\n", row.name, row.meaning);
   print_table("options, set in the pipeline or by --set", plugin.options);
@@ -106,7 +114,8 @@ int plugins_check(const PluginsOptions& options) {
       if (!asked) continue;
       try {
         host.load(kind, plugin->id);
-        fmt::print("ok    {} {} ({}): {}\n", plugin->id, plugin->version, to_string(kind), plugin->library.string());
+        fmt::print("ok    {} {} ({}): {}{}\n", plugin->id, plugin->version, to_string(kind), plugin->library.string(),
+                   availability(*plugin));
         ++good;
       } catch (const Error& error) {
         fmt::print("FAIL  {}\n", error.what());

@@ -17,13 +17,14 @@ namespace toposcope::cli {
 namespace {
 
 /// One file; of a model with classes one for each, FILE-<class>.
-void save_problems(const fs::path& path, const Analysis& analysis) {
+void save_problems(const fs::path& path, const Analysis& analysis, Context& context) {
   if (path.empty()) return;
   for (const ClassOutcome& each : analysis.classes) {
     fs::path file = path;
     if (analysis.classes.size() > 1)
       file.replace_filename(path.stem().string() + "-" + each.name + path.extension().string());
-    write_problem(file, each.problem);
+    for (const std::string& note : write_problem(file, each.problem))
+      context.log(LogLevel::info, file.string() + ": " + note);
   }
 }
 
@@ -37,6 +38,7 @@ int run(const RunOptions& options) {
   if (!options.save_problem.empty() && options.meshes.size() > 1)
     throw UsageError("--save-problem writes the problem of one mesh, and " + std::to_string(options.meshes.size()) +
                      " are given; run them one by one");
+  if (!options.save_problem.empty()) require_problem_extension(options.save_problem);
   PipelineSession session(options);
   const Model model = read_model(find_resource("models", options.model), &session.host().catalog());
   const Stations stations = session.stations(model);
@@ -46,7 +48,7 @@ int run(const RunOptions& options) {
     const RepairedMesh input = session.read(path);
     const double read_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     const Analysis analysis = analyze(input.mesh, model, stations, {}, session.context());
-    save_problems(options.save_problem, analysis);
+    save_problems(options.save_problem, analysis, session.context());
     Result result = explain(analysis, model, path.string(), stations, session.context());
     result.repair = input.repair;
     result.timings.insert(result.timings.begin(), {"read", read_ms});

@@ -83,6 +83,8 @@ struct PluginDescriptor {
   /// Returns the plugin's object (a pointer to the kind's base class) or null with the reason in `error`.
   void* (*create)(const Options* options, std::string* error);
   void (*destroy)(void* object);
+  const char* programs;  ///< that must be on the PATH for the plugin to run, separated by spaces; each is also the name
+                         ///< of its Debian package
 };
 
 namespace detail {
@@ -139,6 +141,7 @@ struct PluginInfo {
   std::span<const OptionSpec> options = {};
   std::span<const OptionSpec> arguments = {};
   std::span<const ProvidedName> provides = {};
+  const char* programs = "";
 };
 
 template <class Base, class Plugin>
@@ -163,7 +166,8 @@ PluginDescriptor describe(const PluginInfo& info) {
           info.provides.data(),
           info.provides.size(),
           &detail::create<Base, Plugin>,
-          &detail::destroy<Base>};
+          &detail::destroy<Base>,
+          info.programs};
 }
 
 #define TOPOSCOPE_PLUGIN_SYMBOL "toposcope_plugin"

@@ -7,6 +7,7 @@
 #include "base/errors.h"
 #include "plugin/option_check.h"
 #include "toposcope/plugin.h"
+#include "toposcope/programs.h"
 
 namespace toposcope {
 namespace {
@@ -70,6 +71,23 @@ std::string list(const std::vector<OptionRow>& table) {
   for (const OptionRow& row : table)
     all += row.name + " (" + types[static_cast<std::size_t>(row.type)] + ", unit '" + row.unit + "', default '" +
            row.default_value + "', '" + row.minimum + "' to '" + row.maximum + "', " + row.meaning + "); ";
+  return all;
+}
+
+std::vector<std::string> words(const std::string& text) {
+  std::vector<std::string> all;
+  for (std::size_t first = text.find_first_not_of(' '); first != text.npos;
+       first = text.find_first_not_of(' ', first)) {
+    const std::size_t last = std::min(text.find(' ', first), text.size());
+    all.push_back(text.substr(first, last - first));
+    first = last;
+  }
+  return all;
+}
+
+std::string list(const std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : " ") + name;
   return all;
 }
 
@@ -140,6 +158,7 @@ PluginManifest manifest_from_descriptor(const PluginDescriptor& descriptor) {
   manifest.options = rows(descriptor.options, descriptor.option_count, id, "options");
   manifest.arguments = rows(descriptor.arguments, descriptor.argument_count, id, "arguments");
   manifest.provides = provided(descriptor, id);
+  manifest.programs = words(text(descriptor.programs, id, "programs"));
   try {
     check_manifest(manifest);
   } catch (const UsageError& error) {
@@ -168,6 +187,9 @@ void check_manifest(const PluginManifest& manifest) {
   for (const ProvidedRow& row : manifest.provides)
     if (row.name.empty() || std::count(row.name.begin(), row.name.end(), '#') > 1)
       throw UsageError("provides: '" + row.name + "' is not a name with at most one '#'");
+  for (const std::string& program : manifest.programs)
+    if (program.empty() || program.find_first_of("/ '\"") != program.npos)
+      throw UsageError("programs: '" + program + "' is not the name of a program; give it without a folder");
   check_table(manifest.options, "options");
   for (const OptionRow& row : manifest.options)
     if (row.name == "plugin")
@@ -199,7 +221,19 @@ std::vector<std::string> differences(const PluginManifest& manifest, const Plugi
   compare("options", list(manifest.options), list(library.options));
   compare("arguments", list(manifest.arguments), list(library.arguments));
   compare("provides", list(manifest.provides), list(library.provides));
+  compare("programs", list(manifest.programs), list(library.programs));
   return fields;
+}
+
+std::string missing_programs(const PluginManifest& manifest) {
+  std::vector<std::string> missing;
+  for (const std::string& program : manifest.programs)
+    if (!find_program(program)) missing.push_back(program);
+  if (missing.empty()) return "";
+  std::string names;
+  for (const std::string& program : missing) names += (names.empty() ? "'" : ", '") + program + "'";
+  return std::string("needs the program") + (missing.size() > 1 ? "s " : " ") + names + " (apt-get install " +
+         list(missing) + ")";
 }
 
 }  // namespace toposcope

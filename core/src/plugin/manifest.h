@@ -45,8 +45,9 @@ struct PluginManifest {
   bool ordered = false;  ///< relations: it matters which feature comes first
   std::vector<OptionRow> options, arguments;
   std::vector<ProvidedRow> provides;
-  std::filesystem::path file;     ///< the manifest
-  std::filesystem::path library;  ///< beside it
+  std::vector<std::string> programs;  ///< that must be on the PATH for the plugin to run
+  std::filesystem::path file;         ///< the manifest
+  std::filesystem::path library;      ///< beside it
 
   /// The provided name that matches, '#' standing for a number: `length_3` matches `length_#`.
   const ProvidedRow* find_provided(std::string_view name) const;
@@ -70,6 +71,9 @@ std::string manifest_to_json(const PluginManifest& manifest);
 /// Reads `<id>.plugin.json`; the library is the file `<id>.so` beside it (it need not exist).
 /// \throw UsageError  names file and field
 PluginManifest read_manifest(const std::filesystem::path& file);
+
+/// "needs the program 'toulbar2' (apt-get install toulbar2)"; empty where all that it needs are on the PATH.
+std::string missing_programs(const PluginManifest& manifest);
 
 inline constexpr std::string_view manifest_suffix = ".plugin.json";
 

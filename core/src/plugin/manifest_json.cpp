@@ -74,6 +74,13 @@ class Fields {
       entries.emplace_back(value[i], at(name) + "[" + std::to_string(i) + "]");
     return entries;
   }
+  std::vector<std::string> texts(const char* name) const {
+    const Json& value = field(name);
+    if (!value.is_array() ||
+        std::any_of(value.begin(), value.end(), [](const Json& each) { return !each.is_string(); }))
+      throw UsageError(at(name) + ": must be an array of strings");
+    return value.get<std::vector<std::string>>();
+  }
   void allow_only(std::initializer_list<std::string_view> names) const {
     for (const auto& entry : object_.items())
       if (std::find(names.begin(), names.end(), entry.key()) == names.end())
@@ -113,7 +120,7 @@ std::vector<OptionRow> option_rows(const std::vector<Fields>& entries) {
 PluginManifest parse(const Json& json) {
   const Fields root(json, "");
   root.allow_only({"schema", "id", "kind", "version", "abi", "fingerprint", "summary", "citation", "unit", "arity",
-                   "options", "arguments", "provides"});
+                   "options", "arguments", "provides", "programs"});
   if (root.text("schema") != schema_id)
     throw UsageError("schema: must be '" + std::string(schema_id) + "', is '" + root.text("schema") + "'");
   PluginManifest manifest;
@@ -136,6 +143,7 @@ PluginManifest parse(const Json& json) {
   manifest.arguments = option_rows(root.array("arguments"));
   for (const Fields& entry : root.array("provides"))
     manifest.provides.push_back({entry.text("name"), entry.integer<int>("dimension"), entry.text("meaning")});
+  manifest.programs = root.texts("programs");
   return manifest;
 }
 
@@ -159,7 +167,8 @@ std::string manifest_to_json(const PluginManifest& manifest) {
        {{"minimum", manifest.min_arity}, {"maximum", manifest.max_arity}, {"ordered", manifest.ordered ? 1 : 0}}},
       {"options", to_json(manifest.options)},
       {"arguments", to_json(manifest.arguments)},
-      {"provides", provides}};
+      {"provides", provides},
+      {"programs", manifest.programs}};
   return json.dump(2) + "\n";
 }
 

@@ -41,6 +41,8 @@ const PluginDescriptor& PluginHost::load(PluginKind kind, std::string_view id) {
 std::shared_ptr<const void> PluginHost::make(PluginKind kind, std::string_view id,
                                              std::span<const OptionValue> options) {
   const PluginDescriptor& descriptor = load(kind, id);
+  if (const std::string missing = missing_programs(catalog_.require(kind, id)); !missing.empty())
+    throw PluginError(std::string(id), "is not available: " + missing);
   auto made = std::make_shared<MadeObject>(options);
   std::string error;
   try {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The formats one by one; `where` names the file in messages.
+// The formats one by one; `where` names the file in messages. Writers of .cfn, .wcsp and .uai:
+// toposcope/problem_writer.h.
 
 #include <string>
 #include <string_view>
@@ -13,12 +14,11 @@ namespace toposcope {
 ProblemFile read_problem_json(const std::string& where, std::string_view text);
 ProblemFile read_cfn(const std::string& where, std::string_view text);
 ProblemFile read_wcsp(const std::string& where, std::string_view text);
-/// \param evidence  content of the .evid file, empty: none
-ProblemFile read_uai(const std::string& where, std::string_view text, std::string_view evidence);
+ProblemFile read_uai(const std::string& where, std::string_view text);
+/// All values of observed variables but the observed ones are forbidden.
+/// \param text  content of the .evid file
+void read_uai_evidence(LabelingProblem& problem, const std::string& where, std::string_view text);
 
-std::string problem_json(const LabelingProblem& problem);
-std::string cfn_text(const LabelingProblem& problem);
-std::string wcsp_text(const LabelingProblem& problem);
-std::string uai_text(const LabelingProblem& problem);
+std::string problem_json(const ProblemFile& file);
 
 }  // namespace toposcope

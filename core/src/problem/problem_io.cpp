@@ -1,71 +1,91 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "problem/problem_io.h"
 
-#include <array>
+#include <fmt/format.h>
+
+#include <stdexcept>
 
 #include "base/errors.h"
-#include "io/file_bytes.h"
+#include "io/extension.h"
 #include "io/mesh_io.h"
 #include "problem/problem_formats.h"
+#include "problem/problem_text.h"
 #include "toposcope/labeling_tools.h"
+#include "toposcope/problem_writer.h"
 
 namespace toposcope {
 namespace {
 
 namespace fs = std::filesystem;
 
-FileBytes read_bytes(const fs::path& path) {
-  try {
-    return read_file_bytes(path);
-  } catch (const MeshError& error) {
-    throw UsageError(error.what());
-  }
+void note_names(const LabelingProblem& problem, const char* format, std::vector<std::string>& notes) {
+  bool violations = false;
+  for (const LabelingConstraint& constraint : problem.constraints)
+    violations = violations || !constraint.violations.empty();
+  notes.push_back(fmt::format("{} does not keep names{}", format, violations ? " and violations" : ""));
 }
 
-[[noreturn]] void unknown_format(const fs::path& path) {
-  throw UsageError(path.string() + ": '" + path.extension().string() +
-                   "' is no format of labelling problems; known are .json, .cfn, .wcsp and .uai");
+std::string text_of(const ProblemFile& file, const std::string& extension, std::vector<std::string>& notes) {
+  if (extension == ".json") return problem_json(file);
+  if (extension == ".uai") {
+    note_names(file.problem, ".uai", notes);
+    if (file.top < forbidden) notes.push_back(fmt::format(".uai does not keep the top of {}", file.top));
+    return std::move(write_uai(file.problem).text);
+  }
+  const bool cfn = extension == ".cfn";
+  WrittenProblem written = cfn ? write_cfn(file.problem, file.top, file.maximize) : write_wcsp(file.problem, file.top);
+  if (!written.exact) notes.push_back(fmt::format("costs are rounded to {} digits after the point", written.decimals));
+  if (!cfn && (written.decimals > 0 || written.shift > 0))
+    notes.push_back(fmt::format("costs of .wcsp are whole and not negative: cost c is written as 10^{} (c + {})",
+                                written.decimals, written.shift));
+  if (!cfn) note_names(file.problem, ".wcsp", notes);
+  return std::move(written.text);
 }
 
 }  // namespace
 
+void require_problem_extension(const fs::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".json" && extension != ".cfn" && extension != ".wcsp" && extension != ".uai")
+    throw UsageError(path.string() + ": '" + path.extension().string() +
+                     "' is no format of labelling problems; known are .json, .cfn, .wcsp and .uai (unpack a compressed "
+                     "file first)");
+}
+
 ProblemFile read_problem(const fs::path& path) {
-  const std::string where = path.string(), extension = path.extension().string();
-  const bool known = extension == ".json" || extension == ".cfn" || extension == ".wcsp" || extension == ".uai";
-  if (!known) unknown_format(path);
-  const FileBytes bytes = read_bytes(path);
+  require_problem_extension(path);
+  const std::string extension = lower_extension(path), where = path.string();
+  const std::string text = read_problem_text(path);
   ProblemFile file;
   if (extension == ".json") {
-    file = read_problem_json(where, bytes.view());
+    file = read_problem_json(where, text);
   } else if (extension == ".cfn") {
-    file = read_cfn(where, bytes.view());
+    file = read_cfn(where, text);
   } else if (extension == ".wcsp") {
-    file = read_wcsp(where, bytes.view());
+    file = read_wcsp(where, text);
   } else {
     const fs::path evidence = where + ".evid";
-    file = fs::exists(evidence) ? read_uai(where, bytes.view(), read_bytes(evidence).view())
-                                : read_uai(where, bytes.view(), {});
-  }
-  try {
-    check(file.problem);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(where + ": " + error.what());
+    file = read_uai(where, text);
+    if (fs::exists(evidence)) read_uai_evidence(file.problem, evidence.string(), read_problem_text(evidence));
   }
   return file;
 }
 
-void write_problem(const fs::path& path, const LabelingProblem& problem) {
-  const std::string extension = path.extension().string();
-  if (extension == ".json")
-    write_file(path, problem_json(problem));
-  else if (extension == ".cfn")
-    write_file(path, cfn_text(problem));
-  else if (extension == ".wcsp")
-    write_file(path, wcsp_text(problem));
-  else if (extension == ".uai")
-    write_file(path, uai_text(problem));
-  else
-    unknown_format(path);
+std::vector<std::string> write_problem(const fs::path& path, const ProblemFile& file) {
+  require_problem_extension(path);
+  std::vector<std::string> notes;
+  try {
+    write_file(path, text_of(file, lower_extension(path), notes));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(path.string() + ": cannot be written: " + error.what());
+  }
+  return notes;
+}
+
+std::vector<std::string> write_problem(const fs::path& path, const LabelingProblem& problem) {
+  ProblemFile file;
+  file.problem = problem;
+  return write_problem(path, file);
 }
 
 }  // namespace toposcope

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "toposcope/labeling.h"
 
@@ -13,14 +14,23 @@ namespace toposcope {
 struct ProblemFile {
   LabelingProblem problem;
   double top = std::numeric_limits<double>::infinity();  ///< a labelling that costs so much or more is no solution
+  bool maximize = false;                   ///< .cfn asks for the greatest value: costs are minus its values
+  std::vector<std::string> warnings = {};  ///< where the file contradicts itself and was read all the same
 };
 
 /// Reads .json (schemas/problem.schema.json), toulbar2's .cfn and .wcsp, and .uai with its evidence in <file>.evid.
+/// Variables of the last three may not be missing. The locale plays no role.
 /// \throw UsageError  with file, line, value, constraint and remedy; also for functions that are not supported
 ProblemFile read_problem(const std::filesystem::path& path);
 
-/// Writes the format that the extension names. .json loses nothing; .cfn and .wcsp have exclusions as pairwise
-/// functions and costs as decimals; .uai has factors exp(-cost). \throw UsageError
-void write_problem(const std::filesystem::path& path, const LabelingProblem& problem);
+/// Writes the format that the extension names, whole or not at all. .json loses nothing; .cfn and .wcsp have exclusions
+/// as pairwise functions and costs as decimals; .uai has factors exp(-cost).
+/// \return what the format could not keep, one line each
+/// \throw UsageError  unknown extension, costs that the format cannot hold, a file that cannot be written
+std::vector<std::string> write_problem(const std::filesystem::path& path, const ProblemFile& file);
+std::vector<std::string> write_problem(const std::filesystem::path& path, const LabelingProblem& problem);
+
+/// \throw UsageError  the extension is none of a format
+void require_problem_extension(const std::filesystem::path& path);
 
 }  // namespace toposcope

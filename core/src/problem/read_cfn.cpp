@@ -1,275 +1,265 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// toulbar2's .cfn: JSON in which commas, colons and quotes may be left out and '#' begins a comment.
 
-#include <algorithm>
+// Cost function network format of toulbar2: JSON with freedoms, see docs/problems.md.
+
 #include <map>
-#include <utility>
+#include <optional>
+#include <unordered_map>
 
-#include "base/errors.h"
-#include "problem/problem_builder.h"
+#include "problem/cfn_parameters.h"
+#include "problem/global_functions.h"
 #include "problem/problem_formats.h"
-#include "problem/problem_words.h"
 
 namespace toposcope {
 namespace {
 
-struct Node {
-  enum class Kind { scalar, list, object } kind = Kind::scalar;
-  std::string text;
-  std::vector<Node> items;
-  std::vector<std::pair<std::string, Node>> members;
-  std::size_t line = 0;
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool begins_number(std::string_view word) {
+  return !word.empty() && (is_digit(word[0]) || word[0] == '-' || word[0] == '+' || word[0] == '.');
+}
 
-  const Node* find(std::string_view name) const {
-    for (const auto& member : members)
-      if (member.first == name) return &member.second;
-    return nullptr;
-  }
-};
-
-class CfnParser {
+class Reader {
  public:
-  CfnParser(const std::string& where, std::string_view text) : where_(where), text_(text) {}
+  Reader(const std::string& name, std::string_view bytes)
+      : text_(name, bytes, {":,", "{}[]", true, true}), builder_(text_) {}
 
-  Node parse() {
-    Node root = value(0);
-    if (!token().empty()) fail("more follows after the problem's closing bracket");
-    return root;
+  ProblemFile read() {
+    need_open(text_, "the problem");
+    // Without the first tag there are no tags at all.
+    tagged_ = text_.peek().is("problem");
+    header();
+    tag("variables");
+    need_open(text_, "the variables");
+    while (!closes(text_.peek())) variable();
+    text_.next();
+    tag("functions");
+    need_open(text_, "the functions");
+    while (!closes(text_.peek())) function();
+    text_.next();
+    // As toulbar2: what follows is not looked at.
+    if (closes(text_.peek())) text_.next();
+    if (const ProblemToken rest = text_.peek(); !rest.end)
+      builder_.file().warnings.push_back(text_.file() + ":" + std::to_string(rest.line) +
+                                         ": the file goes on after the problem; the rest was not read");
+    share();
+    return builder_.finish();
   }
 
  private:
-  [[noreturn]] void fail(const std::string& message) const {
-    throw UsageError(where_ + ":" + std::to_string(line_) + ": " + message);
-  }
-
-  std::string_view token() {
-    constexpr std::string_view skipped = " \t\r\n,:";
-    constexpr std::string_view brackets = "{}[]";
-    while (at_ < text_.size()) {
-      if (text_[at_] == '#')
-        while (at_ < text_.size() && text_[at_] != '\n') ++at_;
-      else if (skipped.find(text_[at_]) != skipped.npos)
-        line_ += text_[at_++] == '\n';
-      else
-        break;
-    }
-    quoted_ = false;
-    if (at_ == text_.size()) return {};
-    const std::size_t begin = at_;
-    if (brackets.find(text_[at_]) != brackets.npos) return text_.substr(at_++, 1);
-    if (text_[at_] == '"') {
-      const std::size_t end = text_.find('"', at_ + 1);
-      if (end == text_.npos) fail("a quote is not closed");
-      quoted_ = true;
-      at_ = end + 1;
-      return text_.substr(begin + 1, end - begin - 1);
-    }
-    while (at_ < text_.size() && skipped.find(text_[at_]) == skipped.npos && brackets.find(text_[at_]) == brackets.npos)
-      ++at_;
-    return text_.substr(begin, at_ - begin);
-  }
-
-  Node value(int depth) { return value(token(), depth); }
-  Node value(std::string_view first, int depth) {
-    Node node;
-    node.line = line_;
-    if (depth > 16) fail("brackets are nested too deeply");
-    if (first.empty() && !quoted_) fail("the file ends within the problem; it is cut short");
-    if (!quoted_ && (first == "}" || first == "]")) fail("'" + std::string(first) + "' stands where a value should");
-    if (!quoted_ && first == "{") {
-      node.kind = Node::Kind::object;
-      for (std::string_view key = token(); quoted_ || key != "}"; key = token()) {
-        if (key.empty() && !quoted_) fail("the file ends within the problem; it is cut short");
-        if (!quoted_ && (key == "{" || key == "[" || key == "]")) fail("a name should stand here");
-        std::string name(key);
-        node.members.emplace_back(std::move(name), value(depth + 1));
-      }
-    } else if (!quoted_ && first == "[") {
-      node.kind = Node::Kind::list;
-      for (std::string_view next = token(); quoted_ || next != "]"; next = token())
-        node.items.push_back(value(next, depth + 1));
-    } else {
-      node.text = std::string(first);
-    }
-    return node;
-  }
-
-  const std::string& where_;
-  std::string_view text_;
-  std::size_t at_ = 0, line_ = 1;
-  bool quoted_ = false;
-};
-
-class CfnReader {
- public:
-  explicit CfnReader(const std::string& where) : where_(where) {}
-
-  ProblemFile read(const Node& root) {
-    header(need(root, "problem", Node::Kind::object));
-    for (const auto& [name, domain] : need(root, "variables", Node::Kind::object).members) variable(name, domain);
-    for (const auto& [name, given] : need(root, "functions", Node::Kind::object).members) function(name, given);
-    return std::move(file_);
-  }
-
- private:
-  [[noreturn]] void fail(const Node& node, const std::string& message) const {
-    throw UsageError(where_ + ":" + std::to_string(node.line) + ": " + message);
-  }
-  const Node& need(const Node& node, const char* name, Node::Kind kind) const {
-    const Node* found = node.find(name);
-    if (!found) fail(node, std::string("'") + name + "' is missing");
-    if (found->kind != kind) fail(*found, std::string("'") + name + "' is of the wrong kind");
-    return *found;
-  }
-  double number(const Node& node) const {
-    double value = 0;
-    if (node.kind != Node::Kind::scalar || !parse_number(node.text, value))
-      fail(node, "'" + node.text + "' stands where a number should");
-    return value;
-  }
-
-  void header(const Node& problem) {
-    if (const Node* name = problem.find("name")) file_.problem.name = name->text;
-    const Node& bound = need(problem, "mustbe", Node::Kind::scalar);
-    if (bound.text.empty() || bound.text[0] != '<')
-      fail(bound, "'mustbe: " + bound.text + "': only '<' is supported; to maximise, negate all costs and write '<'");
-    if (!parse_number(std::string_view(bound.text).substr(1), file_.top))
-      fail(bound, "'mustbe: " + bound.text + "' must be '<' and a number");
-  }
-
-  void variable(const std::string& name, const Node& domain) {
-    if (variables_.count(name)) fail(domain, "variable '" + name + "' is given twice");
-    variables_[name] = static_cast<Index>(file_.problem.variables.size());
-    if (domain.kind == Node::Kind::list) {
-      if (domain.items.empty()) fail(domain, "variable '" + name + "' has no values");
-      add_variable(file_.problem, name, static_cast<Index>(domain.items.size()));
-      for (const Node& value : domain.items) file_.problem.variables.back().value_names.push_back(value.text);
-      return;
-    }
-    const double size = number(domain);
-    if (!(size >= 1 && size <= 1e6))
-      fail(domain,
-           "variable '" + name + "' must have a list of values or their number, 1 to 1000000, not " + domain.text);
-    add_variable(file_.problem, name, static_cast<Index>(size));
-  }
-
-  Index variable_of(const Node& node) const {
-    if (const auto found = variables_.find(node.text); found != variables_.end()) return found->second;
-    double index = 0;
-    if (parse_number(node.text, index) && index >= 0 && index < static_cast<double>(variables_.size()))
-      return static_cast<Index>(index);
-    fail(node, "'" + node.text + "' is no variable of the problem");
-  }
-  Index value_of(Index v, const Node& node) const {
-    const LabelingVariable& variable = file_.problem.variables[v];
-    const auto named = std::find(variable.value_names.begin(), variable.value_names.end(), node.text);
-    if (named != variable.value_names.end()) return static_cast<Index>(named - variable.value_names.begin());
-    double index = 0;
-    if (parse_number(node.text, index) && index >= 0 && index < variable.domain()) return static_cast<Index>(index);
-    fail(node, "'" + node.text + "' is no value of variable '" + variable.name + "'");
-  }
-
-  void function(const std::string& name, const Node& given) {
-    if (given.kind == Node::Kind::scalar) return add_table(file_, name, {}, {number(given)});
+  // Where the table of a function is; that of one variable is kept.
+  struct Table {
     std::vector<Index> scope;
-    for (const Node& item : need(given, "scope", Node::Kind::list).items) {
-      scope.push_back(variable_of(item));
-      if (std::count(scope.begin(), scope.end(), scope.back()) > 1)
-        fail(item, "variable '" + item.text + "' stands twice in the scope of '" + name + "'");
+    std::size_t constraint = 0;
+    std::vector<double> costs;
+  };
+  struct Sharing {
+    ProblemToken of;
+    std::string name;
+    std::vector<Index> scope;
+  };
+
+  void tag(std::string_view name) {
+    if (!tagged_) return;
+    const ProblemToken token = text_.need("'" + std::string(name) + "'");
+    if (!token.is(name))
+      text_.fail(token, "expected '" + std::string(name) + "' but found " + ProblemText::name(token) +
+                            "; fields have a fixed order");
+  }
+
+  void header() {
+    tag("problem");
+    need_open(text_, "the problem's name and bound");
+    tag("name");
+    builder_.problem().name = text_.need("the problem's name").text;
+    tag("mustbe");
+    ProblemToken bound = text_.need("the bound ('<' or '>' and a number)");
+    if (bound.end || bound.text.empty() || (bound.text[0] != '<' && bound.text[0] != '>'))
+      text_.fail(bound, "the bound is " + ProblemText::name(bound) +
+                            "; it must be '<' (minimise) or '>' (maximise) followed at once by a number, as in <12.5");
+    builder_.file().maximize = bound.text[0] == '>';
+    bound.text.remove_prefix(1);
+    const double value = text_.number(bound, "the bound after '<' or '>'");
+    builder_.file().top = builder_.cost(value);
+    need_close(text_, "the bound");
+  }
+
+  void variable() {
+    ProblemToken token = text_.need("a variable");
+    const std::size_t index = builder_.problem().variables.size();
+    std::string name = std::to_string(index);
+    const ProblemToken at = token;
+    if (!opens(token) && !begins_number(token.text)) {
+      name = token.text;
+      token = text_.need("the values of variable '" + name + "', or their number");
     }
-    if (const Node* type = given.find("type")) return global(name, type->text, scope, given);
-    const Node* listed = given.find("costs");
-    if (!listed) fail(given, "function '" + name + "' has no costs");
-    if (listed->kind == Node::Kind::scalar && !scope.empty()) {
-      const auto shared = tables_.find(listed->text);
-      if (shared == tables_.end()) fail(*listed, "'" + listed->text + "' is no function above");
-      if (table_size(file_.problem, scope) != shared->second.size())
-        fail(*listed, "the costs of '" + listed->text + "' do not fit the domains of '" + name + "'");
-      return add_table(file_, name, scope, shared->second);
+    if (!indices_.emplace(name, static_cast<Index>(index)).second)
+      text_.fail(at, "there are two variables '" + name + "'; rename one of them");
+    std::unordered_map<std::string, Index>& values = values_.emplace_back();
+    if (!opens(token)) {
+      constexpr std::int64_t most = 1 << 30;  // a negative number is an interval from 0
+      const std::int64_t size = text_.integer(token, "the number of values of variable '" + name + "'", -most, most);
+      return builder_.add_variable(token, name, std::abs(size));
     }
-    const auto entries = table_size(file_.problem, scope);
-    if (!entries)
-      fail(given, "function '" + name + "' needs a table of over " + std::to_string(most_entries) +
-                      " entries, which is not supported");
-    std::vector<double> costs(*entries, 0);
-    if (const Node* base = given.find("defaultcost")) {
-      std::fill(costs.begin(), costs.end(), number(*base));
-      if (listed->items.size() % (scope.size() + 1) != 0)
-        fail(*listed, "the costs of '" + name + "' must be tuples of " + std::to_string(scope.size()) +
-                          " values and a cost, as it has a 'defaultcost'");
-      for (std::size_t k = 0; k < listed->items.size();) {
-        std::size_t entry = 0;
-        for (const Index v : scope)
-          entry = entry * file_.problem.variables[v].domain() + value_of(v, listed->items[k++]);
-        costs[entry] = number(listed->items[k++]);
-      }
+    std::vector<std::string> names;
+    for (ProblemToken value = text_.need("a value"); !closes(value); value = text_.need("a value")) {
+      if (opens(value) || value.text.empty() || is_digit(value.text[0]))
+        text_.fail(value, "a value of variable '" + name + "' cannot be called " + ProblemText::name(value) +
+                              ": names do not begin with a digit");
+      if (!values.emplace(value.text, static_cast<Index>(names.size())).second)
+        text_.fail(value,
+                   "variable '" + name + "' has two values " + ProblemText::name(value) + "; rename one of them");
+      names.emplace_back(value.text);
+    }
+    const auto count = static_cast<std::int64_t>(names.size());
+    builder_.add_variable(token, name, count, std::move(names));
+  }
+
+  Index index_of(const ProblemToken& word) const {
+    if (!word.text.empty() && is_digit(word.text[0])) {
+      const auto count = static_cast<std::int64_t>(values_.size());
+      return static_cast<Index>(text_.integer(word, "the index of a variable", 0, count - 1));
+    }
+    const auto found = indices_.find(std::string(word.text));
+    if (found == indices_.end())
+      text_.fail(word, "there is no variable " + ProblemText::name(word) + "; give the name or index of one");
+    return found->second;
+  }
+
+  Index value_of(Index variable, const ProblemToken& word) const {
+    const std::string& name = builder_.problem().variables[variable].name;
+    if (!word.text.empty() && is_digit(word.text[0]))
+      return static_cast<Index>(text_.integer(word, "a value of variable '" + name + "'", 0,
+                                              static_cast<std::int64_t>(builder_.domain(variable)) - 1));
+    const auto found = values_[variable].find(std::string(word.text));
+    if (found == values_[variable].end())
+      text_.fail(word, "variable '" + name + "' has no value " + ProblemText::name(word));
+    return found->second;
+  }
+
+  double cost(const ProblemToken& word) const { return builder_.cost(text_.number(word, "a cost")); }
+
+  void function() {
+    ProblemToken token = text_.need("a function");
+    const ProblemToken at = token;
+    std::string name = "f" + std::to_string(functions_++);
+    if (!opens(token)) {
+      name = token.text;
+      need_open(text_, "function '" + name + "'");
+    }
+    tag("scope");
+    need_open(text_, "the scope of function '" + name + "'");
+    std::vector<Index> scope;
+    for (ProblemToken word = text_.need("a variable"); !closes(word); word = text_.need("a variable"))
+      scope.push_back(index_of(word));
+    builder_.check_scope(at, scope);
+
+    token = text_.need("the costs of function '" + name + "'");
+    std::optional<double> default_cost;
+    if (tagged_ ? token.is("defaultcost") : begins_number(token.text)) {
+      if (tagged_) token = text_.need("the default cost");
+      default_cost = cost(token);
+      token = text_.need("the costs of function '" + name + "'");
+    }
+    if (tagged_ && token.is("type")) return global(text_.need("the type of function '" + name + "'"), name, scope);
+    if (tagged_) {
+      if (!token.is("costs"))
+        text_.fail(token, "expected 'defaultcost', 'costs' or 'type' in function '" + name + "' but found " +
+                              ProblemText::name(token));
+      token = text_.need("the costs of function '" + name + "'");
+    }
+    if (opens(token)) {
+      table(at, name, !opens(at), std::move(scope), default_cost);
+    } else if (!tagged_ && opens(text_.peek())) {
+      return global(token, name, scope);
     } else {
-      if (listed->items.size() != costs.size())
-        fail(*listed, "function '" + name + "' has " + std::to_string(listed->items.size()) +
-                          " costs; its scope needs " + std::to_string(costs.size()));
-      for (std::size_t k = 0; k < costs.size(); ++k) costs[k] = number(listed->items[k]);
+      sharings_.push_back({token, name, std::move(scope)});
     }
-    tables_[name] = costs;
-    add_table(file_, name, scope, std::move(costs));
+    need_close(text_, "function '" + name + "'");
   }
 
-  void global(const std::string& name, const std::string& type, const std::vector<Index>& scope, const Node& given) {
-    const Node& parameters = need(given, "params", Node::Kind::object);
-    GlobalArguments arguments;
-    if (const Node* metric = parameters.find("metric")) arguments.metric = metric->text;
-    if (const Node* cost = parameters.find("cost")) arguments.cost = number(*cost);
-    const auto append = [&](const char* parameter) { flatten(need_any(parameters, parameter), arguments); };
-    if (type == "max") {
-      append("defaultcost");
-      append("tuples");
-    } else if (type == "sgcc") {
-      append("bounds");
-    } else if (type == "samong" || type == "wamong") {
-      append("min");
-      append("max");
-      append("values");
-    } else if (type == "sregular") {
-      append("nb_states");
-      for (const char* part : {"starts", "ends", "transitions"}) {
-        const Node& list = need(parameters, part, Node::Kind::list);
-        arguments.numbers.push_back(static_cast<double>(list.items.size()));
-        flatten(list, arguments);
-      }
-    } else if (type == "knapsack") {
-      append("capacity");
-      append("weights");
-    } else if (type == "ssame") {
-      for (const char* part : {"vars1", "vars2"})
-        for (const Node& item : need(parameters, part, Node::Kind::list).items) {
-          const auto at = std::find(scope.begin(), scope.end(), variable_of(item));
-          if (at == scope.end()) fail(item, "'" + item.text + "' is not in the scope of '" + name + "'");
-          arguments.numbers.push_back(static_cast<double>(at - scope.begin()));
+  void global(const ProblemToken& keyword, const std::string& name, std::vector<Index> scope) {
+    tag("params");
+    need_open(text_, "the parameters of '" + std::string(keyword.text) + "'");
+    CfnParameters parameters(text_, tagged_,
+                             [this](const ProblemToken& word) { return std::to_string(index_of(word)); });
+    parameters.read(keyword);
+    add_global_function(builder_, text_, keyword, name, std::move(scope),
+                        [&](std::string_view what) { return parameters.next(what); });
+    if (!parameters.at_end())
+      text_.fail(parameters.place(), "'" + std::string(keyword.text) + "' has more parameters than it takes, from " +
+                                         ProblemText::name(parameters.place()) + " on");
+    need_close(text_, "function '" + name + "'");
+  }
+
+  // From after the opening to after the closing bracket of the costs.
+  void table(const ProblemToken& at, const std::string& name, bool named, std::vector<Index> scope,
+             std::optional<double> default_cost) {
+    std::vector<double> costs(builder_.table_size(at, scope, most_table_entries), default_cost.value_or(0));
+    std::size_t given = 0;
+    std::vector<bool> seen(default_cost ? costs.size() : 0, false);
+    for (ProblemToken word = text_.need("a cost"); !closes(word); word = text_.need("a cost")) {
+      std::size_t entry = given++;
+      if (default_cost) {
+        entry = 0;
+        for (const Index v : scope) {
+          entry = entry * builder_.domain(v) + value_of(v, word);
+          word = text_.need("the rest of a tuple and its cost");
         }
+        if (seen[entry]) text_.fail(word, "function '" + name + "' has this tuple twice; keep one of them");
+        seen[entry] = true;
+      } else if (entry >= costs.size()) {
+        text_.fail(word,
+                   "function '" + name + "' has more than the " + std::to_string(costs.size()) + " costs of its scope");
+      }
+      costs[entry] = cost(word);
     }
-    if (const std::string why = add_global(file_, type, scope, arguments); !why.empty())
-      fail(given, "function '" + name + "': the global function '" + type + "' " + why);
+    if (!default_cost && given != costs.size())
+      text_.fail(at, "function '" + name + "' has " + std::to_string(given) + " costs; its scope has " +
+                         std::to_string(costs.size()) + " tuples. Give all, or a defaultcost");
+    if (named) {
+      Table& place = tables_[name];
+      place = {scope, builder_.problem().constraints.size(), {}};
+      if (scope.size() < 2) place.costs = costs;
+    }
+    builder_.add_table(at, name, std::move(scope), std::move(costs));
   }
 
-  const Node& need_any(const Node& node, const char* name) const {
-    const Node* found = node.find(name);
-    if (!found) fail(node, std::string("'") + name + "' is missing");
-    return *found;
-  }
-  void flatten(const Node& node, GlobalArguments& arguments) const {
-    if (node.kind == Node::Kind::scalar) return arguments.numbers.push_back(number(node));
-    for (const Node& item : node.items) flatten(item, arguments);
+  // Functions that use the table of another, which may stand before or after them.
+  void share() {
+    for (Sharing& sharing : sharings_) {
+      const auto found = tables_.find(std::string(sharing.of.text));
+      if (found == tables_.end())
+        text_.fail(sharing.of, "function '" + sharing.name + "' uses the costs of " + ProblemText::name(sharing.of) +
+                                   ", which is no function with a table");
+      bool same = found->second.scope.size() == sharing.scope.size();
+      for (std::size_t i = 0; same && i < sharing.scope.size(); ++i)
+        same = builder_.domain(found->second.scope[i]) == builder_.domain(sharing.scope[i]);
+      if (!same)
+        text_.fail(sharing.of, "function '" + sharing.name + "' uses the costs of " + ProblemText::name(sharing.of) +
+                                   ", whose variables have other domain sizes");
+      std::vector<double> costs = sharing.scope.size() < 2
+                                      ? found->second.costs
+                                      : builder_.problem().constraints[found->second.constraint].costs;
+      builder_.add_table(sharing.of, sharing.name, std::move(sharing.scope), std::move(costs));
+    }
   }
 
-  const std::string& where_;
-  ProblemFile file_;
-  std::map<std::string, Index> variables_;
-  std::map<std::string, std::vector<double>> tables_;
+  ProblemText text_;
+  ProblemBuilder builder_;
+  bool tagged_ = false;
+  std::size_t functions_ = 0;
+  std::unordered_map<std::string, Index> indices_;
+  std::vector<std::unordered_map<std::string, Index>> values_;
+  std::map<std::string, Table> tables_;
+  std::vector<Sharing> sharings_;
 };
 
 }  // namespace
 
-ProblemFile read_cfn(const std::string& where, std::string_view text) {
-  return CfnReader(where).read(CfnParser(where, text).parse());
+ProblemFile read_cfn(const std::string& name, std::string_view text) {
+  return Reader(name, text).read();
 }
 
 }  // namespace toposcope

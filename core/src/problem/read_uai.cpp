@@ -1,70 +1,99 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// .uai: factors of a Markov or Bayes network, whose product is a probability; costs are minus their logarithms.
 
-#include <algorithm>
+// Markov and Bayesian networks in the format of the UAI inference competitions, see docs/problems.md.
+
 #include <cmath>
+#include <limits>
 
 #include "problem/problem_builder.h"
 #include "problem/problem_formats.h"
-#include "problem/problem_words.h"
+#include "toposcope/labeling_tools.h"
 
 namespace toposcope {
+namespace {
 
-ProblemFile read_uai(const std::string& where, std::string_view text, std::string_view evidence) {
-  constexpr std::int64_t most = 1'000'000;
-  ProblemFile file;
-  ProblemWords words(where, text);
-  const std::string kind(words.need("MARKOV or BAYES"));
-  if (kind != "MARKOV" && kind != "BAYES") words.fail("'" + kind + "' stands where MARKOV or BAYES should");
-  const std::int64_t variables = words.integer("the number of variables", 0, most);
-  for (std::int64_t v = 0; v < variables; ++v)
-    add_variable(file.problem, "x" + std::to_string(v),
-                 static_cast<Index>(words.integer("the size of a domain", 1, most)));
-  std::vector<std::vector<Index>> scopes(
-      static_cast<std::size_t>(words.integer("the number of factors", 0, most * 10)));
-  for (std::vector<Index>& scope : scopes) {
-    scope.resize(static_cast<std::size_t>(words.integer("the size of a scope", 0, variables)));
-    for (Index& v : scope) v = static_cast<Index>(words.integer("a variable of a factor", 0, variables - 1));
-    for (const Index v : scope)
-      if (std::count(scope.begin(), scope.end(), v) > 1)
-        words.fail("variable " + std::to_string(v) + " stands twice in a scope");
+constexpr std::int64_t most = 1 << 30;
+
+std::vector<double> read_table(ProblemText& text, const ProblemBuilder& builder, const std::vector<Index>& scope) {
+  const ProblemToken at = text.need("the number of a function's entries");
+  const auto announced = static_cast<std::size_t>(
+      text.integer(at, "the number of a function's entries", 0, std::numeric_limits<std::int64_t>::max()));
+  std::vector<double> costs(builder.table_size(at, scope, most_table_entries));
+  if (announced != costs.size())
+    text.fail(at, "the function has " + std::to_string(announced) + " entries; the domains of its " +
+                      std::to_string(scope.size()) + " variables make " + std::to_string(costs.size()));
+  for (double& cost : costs) {
+    const ProblemToken entry = text.need("a function's entry");
+    const double probability = text.number(entry, "a function's entry");
+    if (probability < 0)
+      text.fail(entry, "a function's entry is " + std::string(entry.text) + "; probabilities are not negative");
+    cost = probability == 0 ? forbidden : 0 - std::log(probability);
+  }
+  return costs;
+}
+
+}  // namespace
+
+ProblemFile read_uai(const std::string& name, std::string_view bytes) {
+  ProblemText text(name, bytes, {});
+  ProblemBuilder builder(text);
+  const ProblemToken kind = text.need("MARKOV or BAYES");
+  if (kind.text != "MARKOV" && kind.text != "BAYES")
+    text.fail(kind, "the file begins with " + ProblemText::name(kind) + "; supported are MARKOV and BAYES");
+  const std::int64_t variables = text.need_integer("the number of variables", 0, most);
+  for (std::int64_t v = 0; v < variables; ++v) {
+    const ProblemToken at = text.need("a domain size");
+    builder.add_variable(at, "x" + std::to_string(v), text.integer(at, "a domain size", 1, most));
+  }
+  const std::int64_t functions = text.need_integer("the number of functions", 0, most);
+  std::vector<std::vector<Index>> scopes;
+  std::vector<ProblemToken> places;
+  for (std::int64_t f = 0; f < functions; ++f) {
+    places.push_back(text.need("a function's number of variables"));
+    const std::int64_t arity = text.integer(places.back(), "a function's number of variables", 0, variables);
+    std::vector<Index>& scope = scopes.emplace_back();
+    for (std::int64_t i = 0; i < arity; ++i)
+      scope.push_back(static_cast<Index>(text.need_integer("the index of a variable", 0, variables - 1)));
+    builder.check_scope(places.back(), scope);
   }
   for (std::size_t f = 0; f < scopes.size(); ++f) {
-    const auto entries = table_size(file.problem, scopes[f]);
-    if (!entries)
-      words.fail("factor " + std::to_string(f) + " needs a table of over " + std::to_string(most_entries) +
-                 " entries, which is not supported");
-    if (words.integer("the number of a factor's entries", 0, most * 1000) != static_cast<std::int64_t>(*entries))
-      words.fail("factor " + std::to_string(f) + " must have " + std::to_string(*entries) + " entries for its domains");
-    std::vector<double> costs(*entries);
-    for (double& cost : costs) {
-      const double factor = words.number("a factor's entry");
-      if (!(factor >= 0 && std::isfinite(factor))) words.fail("a factor's entry must be finite and not negative");
-      cost = factor > 0 ? -std::log(factor) : forbidden;
-    }
-    if (scopes[f].empty() && costs[0] == forbidden)
-      words.fail("a factor of no variables is 0: nothing has a probability");
-    add_table(file, "factor" + std::to_string(f), scopes[f], std::move(costs));
+    std::vector<double> costs = read_table(text, builder, scopes[f]);
+    builder.add_table(places[f], "f" + std::to_string(f), std::move(scopes[f]), std::move(costs));
   }
-  if (!words.at_end()) words.fail("more follows after the last factor; the number of factors is wrong");
+  if (const ProblemToken rest = text.peek(); !rest.end)
+    text.fail(rest, "the file goes on with " + ProblemText::name(rest) + " after the " + std::to_string(functions) +
+                        " functions that it announces; correct their number");
+  return builder.finish();
+}
 
-  const std::string evidence_where = where + ".evid";
-  ProblemWords seen(evidence_where, evidence);
-  if (!seen.at_end()) {
-    // The newer form puts the number of samples (1) first; then the file has an even number of words.
-    std::size_t count = 0;
-    for (ProblemWords counted(evidence_where, evidence); !counted.next().empty();) ++count;
-    if (count % 2 == 0 && seen.integer("the number of samples", 0, 1) == 0) return file;
-    const std::int64_t observed = seen.integer("the number of observed variables", 0, variables);
-    for (std::int64_t k = 0; k < observed; ++k) {
-      LabelingVariable& variable =
-          file.problem.variables[static_cast<std::size_t>(seen.integer("a variable", 0, variables - 1))];
-      const auto value = static_cast<Index>(seen.integer("an observed value", 0, variable.domain() - 1));
-      for (Index a = 0; a < variable.domain(); ++a)
-        if (a != value) variable.costs[a] = forbidden;
-    }
+void read_uai_evidence(LabelingProblem& problem, const std::string& name, std::string_view bytes) {
+  ProblemText text(name, bytes, {});
+  std::vector<ProblemToken> words;
+  for (ProblemToken token = text.next(); !token.end; token = text.next()) words.push_back(token);
+  std::vector<std::int64_t> numbers;
+  for (const ProblemToken& word : words) numbers.push_back(text.integer(word, "evidence", 0, most));
+  if (numbers.empty()) return;
+  // "<observed> (<variable> <value>)*"; in older files the number of samples stands before it.
+  std::size_t first = 0;
+  const auto fits = [&](std::size_t at) {
+    return at < numbers.size() && numbers.size() - at == 1 + 2 * static_cast<std::size_t>(numbers[at]);
+  };
+  if (!fits(0) && fits(1) && numbers[0] <= 1) first = 1;
+  if (!fits(first))
+    text.fail(words[0], "the file has " + std::to_string(numbers.size()) +
+                            " numbers; it should be the number of observed variables, then for each its index and its "
+                            "value (one sample only)");
+  for (std::size_t i = first + 1; i < numbers.size(); i += 2) {
+    if (numbers[i] >= static_cast<std::int64_t>(problem.variables.size()))
+      text.fail(words[i], "there is no variable " + std::to_string(numbers[i]) + "; the problem has " +
+                              std::to_string(problem.variables.size()));
+    LabelingVariable& variable = problem.variables[static_cast<std::size_t>(numbers[i])];
+    if (numbers[i + 1] >= variable.domain())
+      text.fail(words[i + 1], "variable " + std::to_string(numbers[i]) + " has no value " +
+                                  std::to_string(numbers[i + 1]) + "; it has " + std::to_string(variable.domain()));
+    for (Index value = 0; value < variable.domain(); ++value)
+      if (value != numbers[i + 1]) variable.costs[value] = forbidden;
   }
-  return file;
 }
 
 }  // namespace toposcope

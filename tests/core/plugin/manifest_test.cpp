@@ -33,6 +33,7 @@ PluginManifest example() {
                       {"method", OptionType::text, "", "robust", "robust|powell", "", "how to fit"},
                       {"smooth", OptionType::boolean, "", "true", "", "", "whether to smooth"}};
   manifest.arguments = {{"segments", OptionType::integer, "", "", "1", "", "number of segments"}};
+  manifest.programs = {"solver", "viewer"};
   manifest.provides = {{"length", 1, "whole length"}, {"length_#", 1, "of one segment"}};
   return manifest;
 }
@@ -75,6 +76,7 @@ TEST(PluginManifest, EveryDifferenceIsNamed) {
       {"options", [](PluginManifest& m) { m.options.pop_back(); }},
       {"arguments", [](PluginManifest& m) { m.arguments[0].type = OptionType::real; }},
       {"provides", [](PluginManifest& m) { m.provides[1].dimension = 2; }},
+      {"programs", [](PluginManifest& m) { m.programs.pop_back(); }},
   };
   for (const auto& [field, change] : changes) {
     PluginManifest other = example();
