@@ -35,6 +35,14 @@ struct ClassifyOptions : CommonOptions {
   std::string models;
 };
 
+struct CompareOptions : CommonOptions {
+  std::vector<fs::path> meshes;
+  std::string model;
+  std::string labelers = "all";
+  double time_limit_s = 10;
+  bool csv = false, markdown = false;
+};
+
 struct LabelOptions : CommonOptions {
   fs::path problem;
   fs::path save;  ///< empty: not written
@@ -77,6 +85,7 @@ struct SampleOptions : CommonOptions {
 /// Each returns the exit code; errors leave as exceptions (base/errors.h).
 int run(const RunOptions& options);
 int label(const LabelOptions& options);
+int compare(const CompareOptions& options);
 int classify(const ClassifyOptions& options);
 int prepare(const PrepareOptions& options);
 int model_check(const ModelOptions& options);

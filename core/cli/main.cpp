@@ -97,6 +97,33 @@ void add_label(CLI::App& app, LabelOptions& options, int& code) {
   label_app->callback([&] { code = label(options); });
 }
 
+void add_compare(CLI::App& app, CompareOptions& options, int& code) {
+  CLI::App* compare_app =
+      app.add_subcommand("compare", "the same labelling problem under several labelers, as a table");
+  compare_app->add_option("mesh", options.meshes, "mesh files; <mesh>.truth.json beside one tells what is right")
+      ->required()
+      ->type_name("MESH...");
+  compare_app->add_option("--model", options.model, "name or file of the model")->required();
+  compare_app
+      ->add_option("--labelers", options.labelers,
+                   "separated by commas, each with its own options: annealing:sweeps=50,least-error; all: every one")
+      ->type_name("A,B")
+      ->capture_default_str();
+  compare_app->add_option("--time-limit", options.time_limit_s, "seconds for each labeler and problem")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  CLI::Option* json = compare_app->add_flag("--json", options.json, "print JSON");
+  CLI::Option* csv = compare_app->add_flag("--csv", options.csv, "print a row per mesh and labeler")->excludes(json);
+  compare_app->add_flag("--markdown", options.markdown, "print the table over all meshes")
+      ->excludes(json)
+      ->excludes(csv);
+  compare_app->add_option("--pipeline", options.pipeline, "name or file of the pipeline")->capture_default_str();
+  compare_app->add_option("--seed", options.seed, "seed of everything random")->capture_default_str();
+  add_session(compare_app, options);
+  compare_app->callback([&] { code = compare(options); });
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Finds, names and measures the features of a class of objects on triangle meshes.", "toposcope"};
   app.set_version_flag("--version", TOPOSCOPE_VERSION);
@@ -129,6 +156,9 @@ int dispatch(int argc, char** argv) {
   classify_app->add_flag("--json", classify_options.json, "print a JSON object per mesh");
   add_common(classify_app, classify_options);
   classify_app->callback([&] { code = classify(classify_options); });
+
+  CompareOptions compare_options;
+  add_compare(app, compare_options, code);
 
   LabelOptions label_options;
   add_label(app, label_options, code);

@@ -55,15 +55,17 @@ struct Solver {
   const Stations& stations;
   const LabelingRequest& request;
   Context& context;
-  double marginals_ms = 0;
+  double label_ms = 0, marginals_ms = 0;  ///< the last problem's
 
   void solve(ClassOutcome& posed) {
+    Stopwatch watch;
     posed.outcome = outcome_of(posed.problem, *stations.labeler, stations.labeler_id, request);
     LabelingOutcome& outcome = posed.outcome;
     const std::string* maker = &stations.labeler_id;
     std::string made = outcome.guarantee;
+    label_ms = watch.lap_ms();
+    marginals_ms = 0;
     if (stations.marginals) {
-      Stopwatch watch;
       LabelingRequest sums = request;
       sums.k_best = 1;
       LabelingOutcome marginals = outcome_of(posed.problem, *stations.marginals, stations.marginals_id, sums);
@@ -71,7 +73,7 @@ struct Solver {
       outcome.log_evidence = marginals.log_evidence;
       maker = &stations.marginals_id;
       made = std::move(marginals.guarantee);
-      marginals_ms += watch.lap_ms();
+      marginals_ms = watch.lap_ms();
     }
     // Why there are none is worth a line where they were asked for.
     const bool any = !outcome.posteriors.empty() || !std::isnan(outcome.log_evidence);
@@ -89,11 +91,16 @@ struct Solver {
 
 ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeatures& features, Solver& solver) {
   solver.solve(posed);
+  posed.label_ms = solver.label_ms;
+  posed.marginals_ms = solver.marginals_ms;
+  posed.nodes = posed.outcome.nodes;
+  posed.lower_bound = posed.outcome.lower_bound;
+  posed.first_cost = posed.outcome.labelings.front().cost;
   posed.log_evidence = posed.outcome.log_evidence;
   posed.least_cost = forbidden;
   for (const Labeling& labeling : posed.outcome.labelings) posed.least_cost = std::min(posed.least_cost, labeling.cost);
-  const auto orbits = interchangeable_features(model, posed.features, posed.relationships,
-                                               solver.stations.relation_ordered, model.classes.empty());
+  const auto orbits = interchangeable_features(
+      {model, posed.features, posed.relationships, solver.stations.relation_ordered, model.classes.empty()});
   const auto kept = one_side(posed, orbits, features);
   bool changed = false;
   for (Index v = 0; v < kept.size(); ++v) changed = changed || kept[v].size() < posed.problem.variables[v].domain();
@@ -127,8 +134,7 @@ std::vector<double> class_probabilities(std::vector<double> log_evidence) {
   return log_evidence;
 }
 
-Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations, const LabelingRequest& request,
-                 Context& context) {
+Analysis construct(const Mesh& mesh, const Model& model, const Stations& stations, Context& context) {
   Analysis analysis;
   Stopwatch watch;
   const auto lap = [&](const char* station) { analysis.timings.emplace_back(station, watch.lap_ms()); };
@@ -143,26 +149,40 @@ Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations,
   lap("classify");
   analysis.features = construct_features(view, model, analysis.sets, overlap, stations, context);
   lap("fit");
-  const LabelingProblem problem = build_problem(view, model, analysis.features, overlap, stations, context);
+  analysis.problem = build_problem(view, model, analysis.features, overlap, stations, context);
   lap("relate");
+  if (context.cancelled()) throw Error("interrupted", interrupted_exit_code);
+  return analysis;
+}
 
+void label(Analysis& analysis, const Model& model, const Stations& stations, const LabelingRequest& request,
+           Context& context) {
+  Stopwatch watch;
   Solver solver{stations, request, context};
   std::vector<Explained> explained;
-  for (ClassOutcome& posed : pose_classes(problem, model, stations.probability)) {
+  double marginals_ms = 0;
+  analysis.classes.clear();
+  for (ClassOutcome& posed : pose_classes(analysis.problem, model, stations.probability)) {
     analysis.classes.push_back(solve(std::move(posed), model, analysis.features, solver));
-    explained.push_back({analysis.classes.back().log_evidence, analysis.classes.back().least_cost});
+    const ClassOutcome& solved = analysis.classes.back();
+    explained.push_back({solved.log_evidence, solved.least_cost});
+    marginals_ms += solved.marginals_ms;
   }
   analysis.class_evidence = comparable_evidence(explained);
   analysis.class_probabilities = class_probabilities(analysis.class_evidence);
   analysis.best =
       static_cast<std::size_t>(std::max_element(analysis.class_evidence.begin(), analysis.class_evidence.end()) -
                                analysis.class_evidence.begin());
-  lap("label");
-  if (stations.marginals) {
-    analysis.timings.back().second -= solver.marginals_ms;
-    analysis.timings.emplace_back("marginals", solver.marginals_ms);
-  }
+  std::erase_if(analysis.timings, [](const auto& each) { return each.first == "label" || each.first == "marginals"; });
+  analysis.timings.emplace_back("label", watch.lap_ms() - marginals_ms);
+  if (stations.marginals) analysis.timings.emplace_back("marginals", marginals_ms);
   if (context.cancelled()) throw Error("interrupted", interrupted_exit_code);
+}
+
+Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations, const LabelingRequest& request,
+                 Context& context) {
+  Analysis analysis = construct(mesh, model, stations, context);
+  label(analysis, model, stations, request, context);
   return analysis;
 }
 

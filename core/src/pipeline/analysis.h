@@ -21,10 +21,16 @@ struct ClassOutcome {
   LabelingProblem problem;           ///< interchangeable features told apart by the best labelling
   LabelingOutcome outcome;           ///< the labeler's; its probabilities are those of the pipeline's marginals, if any
   std::string probabilities;         ///< how they were made; empty: there are none
-  double log_evidence = 0;  ///< over all labellings, before interchangeable features are told apart; not a number where
-                            ///< none is made
-  double least_cost = 0;    ///< of the labellings found, before interchangeable features are told apart
-  bool complete = false;    ///< every feature present, every relationship within tolerance
+
+  /// Before interchangeable features are told apart:
+  double log_evidence = 0;                ///< over all labellings; not a number where none is made
+  double least_cost = 0;                  ///< of the labellings found
+  double first_cost = 0;                  ///< of the labeler's first
+  double lower_bound = 0;                 ///< the labeler's
+  std::uint64_t nodes = 0;                ///< the labeler's
+  double label_ms = 0, marginals_ms = 0;  ///< to solve it; without the time to tell features apart
+
+  bool complete = false;  ///< every feature present, every relationship within tolerance
 };
 
 /// What classes are compared by, in the order given: the log evidence of each, or, where not all have one, minus the
@@ -43,6 +49,7 @@ struct Analysis {
   PreparedMesh mesh;
   WorkingSets sets;
   ConstructedFeatures features;
+  LabelingProblem problem;                  ///< of all features and relationships
   std::vector<ClassOutcome> classes;        ///< one for a model without classes
   std::vector<double> class_evidence;       ///< what `classes` are compared by
   std::vector<double> class_probabilities;  ///< over `classes` and, last, none of them
@@ -50,7 +57,14 @@ struct Analysis {
   Timings timings;
 };
 
-/// Runs filter, classify, fit, relate, label.
+/// Runs filter, classify, fit, relate: all that labels nothing yet.
+Analysis construct(const Mesh& mesh, const Model& model, const Stations& stations, Context& context);
+
+/// The station *label*: replaces `classes` and what follows from them.
+void label(Analysis& analysis, const Model& model, const Stations& stations, const LabelingRequest& request,
+           Context& context);
+
+/// Both.
 Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations, const LabelingRequest& request,
                  Context& context);
 

@@ -22,49 +22,40 @@ std::string signature(const ModelFeature& feature, bool by_detectability) {
   return text;
 }
 
-struct Question {
-  const Model& model;
-  const std::vector<Index>& features;
-  const std::vector<Index>& relationships;
-  const std::vector<bool>& ordered;
-
-  /// The relationships under a renaming of positions, as a set.
-  std::multiset<std::string> under(const std::vector<Index>& renamed) const {
-    std::multiset<std::string> all;
-    for (Index r : relationships) {
-      const Relationship& relationship = model.relationships[r];
-      std::vector<Index> scope;
-      for (Index f : relationship.features)
-        scope.push_back(
-            renamed[static_cast<std::size_t>(std::find(features.begin(), features.end(), f) - features.begin())]);
-      if (!ordered[r]) std::sort(scope.begin(), scope.end());
-      std::string text = relationship.plugin;
-      for (Index position : scope) text += "|" + std::to_string(position);
-      for (const auto& [name, value] : relationship.arguments) text += "|" + name + "=" + value.text();
-      if (relationship.tolerance) text += "|" + relationship.tolerance->text();
-      all.insert(std::move(text));
-    }
-    return all;
+/// The question's relationships under a renaming of positions, as a set.
+std::multiset<std::string> relationships_under(const Question& question, const std::vector<Index>& renamed) {
+  std::multiset<std::string> all;
+  const std::vector<Index>& features = question.features;
+  for (Index r : question.relationships) {
+    const Relationship& relationship = question.model.relationships[r];
+    std::vector<Index> scope;
+    for (Index f : relationship.features)
+      scope.push_back(
+          renamed[static_cast<std::size_t>(std::find(features.begin(), features.end(), f) - features.begin())]);
+    if (!question.ordered[r]) std::sort(scope.begin(), scope.end());
+    std::string text = relationship.plugin;
+    for (Index position : scope) text += "|" + std::to_string(position);
+    for (const auto& [name, value] : relationship.arguments) text += "|" + name + "=" + value.text();
+    if (relationship.tolerance) text += "|" + relationship.tolerance->text();
+    all.insert(std::move(text));
   }
-};
+  return all;
+}
 
-/// Tries every renaming among features of one signature.
+/// Tries every renaming among features of one signature; the identity comes first.
 class Renamings {
  public:
-  Renamings(const Question& question, std::vector<std::string> signatures)
-      : question_(question),
-        signatures_(std::move(signatures)),
-        renamed_(signatures_.size()),
-        taken_(signatures_.size(), false),
-        orbits(signatures_.size()) {
+  explicit Renamings(const Question& question)
+      : question_(question), renamed_(question.features.size()), taken_(question.features.size(), false) {
+    for (Index f : question.features)
+      signatures_.push_back(signature(question.model.features[f], question.by_detectability));
     std::iota(renamed_.begin(), renamed_.end(), 0);
-    original_ = question.under(renamed_);
+    original_ = relationships_under(question, renamed_);
     extend(0);
-    // Beyond the limit only the trivial renaming is considered.
-    if (tried_ > most_renamings)
-      for (std::set<Index>& orbit : orbits) orbit.clear();
-    for (Index f = 0; f < orbits.size(); ++f) orbits[f].insert(f);
+    if (tried_ > most_renamings) found.resize(1);
   }
+
+  std::vector<std::vector<Index>> found;
 
  private:
   static constexpr std::size_t most_renamings = 50'000;
@@ -73,8 +64,7 @@ class Renamings {
     if (tried_ > most_renamings) return;
     if (f == renamed_.size()) {
       ++tried_;
-      if (question_.under(renamed_) == original_)
-        for (Index g = 0; g < f; ++g) orbits[g].insert(renamed_[g]);
+      if (relationships_under(question_, renamed_) == original_) found.push_back(renamed_);
       return;
     }
     for (Index g = 0; g < renamed_.size(); ++g) {
@@ -92,23 +82,23 @@ class Renamings {
   std::vector<bool> taken_;
   std::multiset<std::string> original_;
   std::size_t tried_ = 0;
-
- public:
-  std::vector<std::set<Index>> orbits;
 };
 
 }  // namespace
 
-std::vector<std::vector<Index>> interchangeable_features(const Model& model, const std::vector<Index>& features,
-                                                         const std::vector<Index>& relationships,
-                                                         const std::vector<bool>& ordered, bool by_detectability) {
-  std::vector<std::string> signatures;
-  for (Index f : features) signatures.push_back(signature(model.features[f], by_detectability));
-  const Question question{model, features, relationships, ordered};
-  std::vector<std::vector<Index>> result;
-  for (const std::set<Index>& orbit : Renamings(question, std::move(signatures)).orbits)
-    result.emplace_back(orbit.begin(), orbit.end());
-  return result;
+std::vector<std::vector<Index>> renamings(const Question& question) {
+  return Renamings(question).found;
+}
+
+std::vector<std::vector<Index>> interchangeable_features(const Question& question) {
+  std::vector<std::vector<Index>> orbits(question.features.size());
+  for (const std::vector<Index>& renamed : renamings(question))
+    for (Index f = 0; f < renamed.size(); ++f) orbits[f].push_back(renamed[f]);
+  for (std::vector<Index>& orbit : orbits) {
+    std::sort(orbit.begin(), orbit.end());
+    orbit.erase(std::unique(orbit.begin(), orbit.end()), orbit.end());
+  }
+  return orbits;
 }
 
 }  // namespace toposcope

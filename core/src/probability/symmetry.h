@@ -7,13 +7,22 @@
 
 namespace toposcope {
 
-/// Which features of a question cannot be told apart: for each the positions in `features` (its own included,
-/// ascending) that some renaming maps it to, where the renaming leaves the question as it is. An airplane's port and
-/// starboard features are such pairs where no relationship names a direction. \param features, relationships  of the
-/// model, that the question is about \param ordered  per relationship of the model: it matters which feature comes
-/// first \param by_detectability  detectability tells features apart (not in a class, whose features all belong to it)
-std::vector<std::vector<Index>> interchangeable_features(const Model& model, const std::vector<Index>& features,
-                                                         const std::vector<Index>& relationships,
-                                                         const std::vector<bool>& ordered, bool by_detectability);
+/// A question to a model: its features and relationships.
+struct Question {
+  const Model& model;
+  const std::vector<Index>& features;       ///< of the model
+  const std::vector<Index>& relationships;  ///< of the model, among these features
+  const std::vector<bool>& ordered;         ///< per relationship of the model: it matters which feature comes first
+  bool by_detectability = true;  ///< it tells features apart (not in a class, whose features all belong to it)
+};
+
+/// All renamings (for each position in `features` the position whose name it takes) that leave the question as it is,
+/// the identity first. An airplane's port and starboard features change places where no relationship names a direction.
+/// Of a question with more than 50,000 to try the identity alone.
+std::vector<std::vector<Index>> renamings(const Question& question);
+
+/// Which features cannot be told apart: for each the positions (its own included, ascending) that some renaming maps it
+/// to.
+std::vector<std::vector<Index>> interchangeable_features(const Question& question);
 
 }  // namespace toposcope

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "truth/judgement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "probability/symmetry.h"
+
+namespace toposcope {
+namespace {
+
+const ShapeParameter* parameter(const FittedShape& shape, std::string_view name) {
+  for (const ShapeParameter& each : shape.parameters)
+    if (each.name == name) return &each;
+  return nullptr;
+}
+
+/// The marks moved, in the band's plane, to the radius of the labelled circle as far as the band allows.
+std::vector<Vec3> in_band(const std::vector<Vec3>& marks, const TruthBand& band, const FittedShape& shape) {
+  const ShapeParameter* radius = parameter(shape, "radius");
+  if (!radius) return marks;
+  const double wanted = std::clamp(radius->values[0], band.inner, band.outer);
+  std::vector<Vec3> moved;
+  for (const Vec3& mark : marks) {
+    const Vec3 arm = mark - band.center;
+    const double height = arm.dot(band.normal);
+    const Vec3 radial = arm - height * band.normal;
+    if (!(radial.norm() > 0)) return marks;
+    moved.push_back(band.center + height * band.normal + wanted * radial.normalized());
+  }
+  return moved;
+}
+
+double mean_distance(const std::vector<Vec3>& points, const FittedShape& shape, const ShapeFitter& fitter) {
+  double sum = 0;
+  for (const Vec3& point : points) sum += fitter.distance(shape, point);
+  return sum / static_cast<double>(points.size());
+}
+
+/// From points spread along the shape to the nearest mark.
+double mean_distance_back(const FittedShape& shape, const std::vector<Vec3>& marks) {
+  double sum = 0;
+  for (const Vec3& point : shape.outline) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec3& mark : marks) least = std::min(least, (point - mark).squaredNorm());
+    sum += std::sqrt(least);
+  }
+  return sum / static_cast<double>(std::max<std::size_t>(1, shape.outline.size()));
+}
+
+/// The farther of two ends from its group's centroid, the groups taken in the better order.
+double ends_distance(const FittedShape& shape, const std::vector<TruthGroup>& groups) {
+  const ShapeParameter* ends = parameter(shape, "endpoints");
+  if (!ends || ends->values.size() < 6 || groups.size() != 2) return std::numeric_limits<double>::infinity();
+  const Vec3 first(ends->values.data()), last(ends->values.data() + ends->values.size() - 3);
+  const auto farther = [&](const Vec3& a, const Vec3& b) { return std::max((first - a).norm(), (last - b).norm()); };
+  return std::min(farther(groups[0].centroid, groups[1].centroid), farther(groups[1].centroid, groups[0].centroid));
+}
+
+class Judge {
+ public:
+  Judge(const Result& result, const Stations& stations, const Limits& limits, Judgement& scale)
+      : result_(result), stations_(stations), limits_(limits), scale_(scale) {}
+
+  FeatureJudgement feature(const FeatureReport& report, const TruthFeature& truth) const {
+    FeatureJudgement judged;
+    judged.feature = truth.name;
+    judged.probability = report.probability;
+    if (!truth.exists()) {
+      judged.verdict = report.present ? Verdict::spurious : Verdict::absent;
+    } else if (!report.present) {
+      judged.verdict = Verdict::missed;
+    } else {
+      measure(report, truth, judged);
+      judged.verdict = judged.excess <= 1 ? Verdict::right : Verdict::wrong;
+    }
+    return judged;
+  }
+
+ private:
+  void measure(const FeatureReport& report, const TruthFeature& truth, FeatureJudgement& judged) const {
+    const ShapeFitter& fitter = *stations_.shapes.at(report.shape_plugin);
+    if (!truth.groups.empty()) {
+      judged.distance = ends_distance(report.shape, truth.groups);
+      judged.excess = judged.distance / (limits_.ends_diagonal * scale_.diagonal);
+      return;
+    }
+    const std::vector<Vec3> marks = truth.band ? in_band(truth.points, *truth.band, report.shape) : truth.points;
+    judged.distance = mean_distance(marks, report.shape, fitter);
+    if (parameter(report.shape, "endpoints"))
+      judged.excess = std::max(judged.distance, mean_distance_back(report.shape, marks)) /
+                      (limits_.lines_diagonal * scale_.diagonal);
+    else
+      judged.excess = judged.distance / (limits_.shape_edges * scale_.mean_edge);
+  }
+
+  const Result& result_;
+  const Stations& stations_;
+  const Limits& limits_;
+  const Judgement& scale_;
+};
+
+}  // namespace
+
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::right:
+      return "right";
+    case Verdict::wrong:
+      return "wrong";
+    case Verdict::missed:
+      return "missed";
+    case Verdict::absent:
+      return "absent";
+    case Verdict::spurious:
+      return "spurious";
+  }
+  return "";
+}
+
+std::size_t Judgement::right() const {
+  return static_cast<std::size_t>(
+      std::count_if(features.begin(), features.end(), [](const FeatureJudgement& f) { return is_right(f.verdict); }));
+}
+
+Judgement judge(const Result& result, const Analysis& analysis, const Model& model, const Stations& stations,
+                const Truth& truth, const Limits& limits) {
+  const ClassOutcome& posed = analysis.classes[analysis.best];
+  Judgement scale;
+  scale.mean_edge = truth.mean_edge.value_or(result.mean_edge);
+  scale.diagonal = truth.diagonal.value_or(result.box.diagonal());
+  const Judge judge(result, stations, limits, scale);
+
+  // A renaming is of the posed features alone; all others keep their names.
+  Judgement best;
+  double best_excess = std::numeric_limits<double>::infinity();
+  for (const std::vector<Index>& renamed :
+       renamings({model, posed.features, posed.relationships, stations.relation_ordered, model.classes.empty()})) {
+    std::vector<Index> name_of(model.features.size());
+    std::iota(name_of.begin(), name_of.end(), 0);
+    for (Index i = 0; i < renamed.size(); ++i) name_of[posed.features[i]] = posed.features[renamed[i]];
+    Judgement judged = scale;
+    double excess = 0;
+    for (Index f = 0; f < model.features.size(); ++f) {
+      const TruthFeature* known = truth.find(model.features[f].name);
+      if (!known) continue;
+      judged.features.push_back(judge.feature(result.features[name_of[f]], *known));
+      const FeatureJudgement& last = judged.features.back();
+      if (std::isfinite(last.excess)) excess += last.excess;
+    }
+    if (best.features.empty() || judged.right() > best.right() ||
+        (judged.right() == best.right() && excess < best_excess)) {
+      best = std::move(judged);
+      best_excess = excess;
+    }
+  }
+  best.mean_edge = scale.mean_edge;
+  best.diagonal = scale.diagonal;
+  return best;
+}
+
+}  // namespace toposcope
