@@ -43,6 +43,13 @@ struct CompareOptions : CommonOptions {
   bool csv = false, markdown = false;
 };
 
+struct EvaluateOptions : CommonOptions {
+  std::vector<fs::path> datasets;
+  std::string model;  ///< empty: the data set's
+  fs::path out, baseline;
+  bool csv = false, markdown = false;
+};
+
 struct LabelOptions : CommonOptions {
   fs::path problem;
   fs::path save;  ///< empty: not written
@@ -86,6 +93,7 @@ struct SampleOptions : CommonOptions {
 int run(const RunOptions& options);
 int label(const LabelOptions& options);
 int compare(const CompareOptions& options);
+int evaluate(const EvaluateOptions& options);
 int classify(const ClassifyOptions& options);
 int prepare(const PrepareOptions& options);
 int model_check(const ModelOptions& options);

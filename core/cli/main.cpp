@@ -124,6 +124,24 @@ void add_compare(CLI::App& app, CompareOptions& options, int& code) {
   compare_app->callback([&] { code = compare(options); });
 }
 
+void add_evaluate(CLI::App& app, EvaluateOptions& options, int& code) {
+  CLI::App* evaluate_app = app.add_subcommand("evaluate", "label meshes whose truth is known, and say how good it is");
+  evaluate_app->add_option("dataset", options.datasets, "data sets: which meshes, which model")
+      ->required()
+      ->type_name("DATASET.yaml...");
+  evaluate_app->add_option("--model", options.model, "name or file of the model to use instead of the data set's");
+  evaluate_app->add_option("--out", options.out, "write evaluation.txt, .md, .json and .csv to DIR")->type_name("DIR");
+  evaluate_app->add_option("--baseline", options.baseline, "an earlier evaluation.json: show what changed")
+      ->type_name("FILE");
+  CLI::Option* json = evaluate_app->add_flag("--json", options.json, "print JSON");
+  CLI::Option* csv = evaluate_app->add_flag("--csv", options.csv, "print a row per mesh and feature")->excludes(json);
+  evaluate_app->add_flag("--markdown", options.markdown, "print the tables for a document")
+      ->excludes(json)
+      ->excludes(csv);
+  add_common(evaluate_app, options);
+  evaluate_app->callback([&] { code = evaluate(options); });
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Finds, names and measures the features of a class of objects on triangle meshes.", "toposcope"};
   app.set_version_flag("--version", TOPOSCOPE_VERSION);
@@ -159,6 +177,9 @@ int dispatch(int argc, char** argv) {
 
   CompareOptions compare_options;
   add_compare(app, compare_options, code);
+
+  EvaluateOptions evaluate_options;
+  add_evaluate(app, evaluate_options, code);
 
   LabelOptions label_options;
   add_label(app, label_options, code);

@@ -7,6 +7,7 @@ namespace toposcope {
 
 // The JSON Schemas of folder schemas/, compiled in: files are checked without a data folder.
 
+std::string_view dataset_schema();
 std::string_view model_schema();
 std::string_view pipeline_schema();
 std::string_view plugin_schema();

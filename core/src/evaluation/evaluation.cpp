@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/evaluation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+#include "base/errors.h"
+#include "evaluation/dataset_mesh.h"
+#include "result/result.h"
+
+namespace toposcope {
+namespace {
+
+/// Of one mesh among many: no progress of its own, and chunks in a row where meshes run side by side.
+class MeshContext final : public Context {
+ public:
+  MeshContext(Context& outer, const std::string& name, bool alone) : outer_(outer), name_(name), alone_(alone) {}
+  void log(LogLevel level, std::string_view message) override {
+    outer_.log(std::min(level, LogLevel::info), name_ + ": " + std::string(message));
+  }
+  void progress(double) override {}
+  bool cancelled() const override { return outer_.cancelled(); }
+  std::uint64_t seed() const override { return outer_.seed(); }
+  unsigned threads() const override { return alone_ ? outer_.threads() : 1; }
+  void parallel_for(std::size_t count, std::size_t grain,
+                    const std::function<void(std::size_t, std::size_t)>& body) override {
+    if (alone_) return outer_.parallel_for(count, grain, body);
+    const std::size_t step = std::max<std::size_t>(1, grain);
+    for (std::size_t first = 0; first < count; first += step) body(first, std::min(count, first + step));
+  }
+
+ private:
+  Context& outer_;
+  const std::string& name_;
+  bool alone_;
+};
+
+class Evaluator {
+ public:
+  Evaluator(const Model& model, const Stations& stations, PluginHost& host)
+      : model_(model), stations_(stations), host_(host) {}
+
+  MeshEvaluation mesh(const DatasetMesh& item, Context& context) const {
+    MeshEvaluation evaluation;
+    evaluation.name = item.name;
+    evaluation.object = item.object;
+    evaluation.variant = item.variant;
+    evaluation.expected_class = item.class_name;
+    try {
+      const KnownMesh known = load(item, host_, context);
+      if (!model_.classes.empty() && evaluation.expected_class.empty())
+        evaluation.expected_class = known.truth.class_name;
+      label(known, evaluation, context);
+    } catch (const Error& error) {
+      if (context.cancelled()) throw;
+      evaluation.error = error.what();
+      evaluation.judgement = {};
+      for (const ModelFeature& feature : model_.features)
+        evaluation.judgement.features.push_back({.feature = feature.name, .verdict = Verdict::missed});
+    }
+    return evaluation;
+  }
+
+ private:
+  void label(const KnownMesh& known, MeshEvaluation& evaluation, Context& context) const {
+    const auto start = std::chrono::steady_clock::now();
+    const Analysis analysis = analyze(known.mesh, model_, stations_, {}, context);
+    const Result result = explain(analysis, model_, evaluation.name, stations_, context);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    evaluation.time_ms = took.count();
+    evaluation.faces = result.faces;
+    evaluation.judgement = judge(result, analysis, model_, stations_, known.truth);
+    for (const RelationReport& relation : result.relations)
+      if (relation.satisfied) evaluation.satisfied.push_back(relation.name);
+    if (model_.classes.empty()) return;
+    evaluation.found_class = result.class_name;
+    evaluation.class_probability =
+        result.class_name.empty() ? analysis.class_probabilities.back() : analysis.class_probabilities[analysis.best];
+  }
+
+  const Model& model_;
+  const Stations& stations_;
+  PluginHost& host_;
+};
+
+}  // namespace
+
+Evaluation evaluate(const Dataset& dataset, const Model& model, const Stations& stations, PluginHost& host,
+                    Context& context, const std::function<void(const MeshEvaluation&)>& done) {
+  const auto start = std::chrono::steady_clock::now();
+  Evaluation evaluation;
+  evaluation.dataset = dataset.name;
+  evaluation.summary = dataset.summary;
+  evaluation.model = dataset.model;
+  evaluation.by_class = dataset.by_class;
+  evaluation.absent = dataset.absent;
+  evaluation.meshes.resize(dataset.meshes.size());
+  const Evaluator evaluator(model, stations, host);
+  const bool alone = dataset.meshes.size() < 2 * context.threads();
+  std::mutex mutex;
+  std::size_t finished = 0;
+  const auto one = [&](std::size_t i) {
+    if (context.cancelled()) return;
+    MeshContext inner(context, dataset.meshes[i].name, alone);
+    evaluation.meshes[i] = evaluator.mesh(dataset.meshes[i], inner);
+    const std::lock_guard lock(mutex);
+    context.progress(static_cast<double>(++finished) / static_cast<double>(dataset.meshes.size()));
+    if (done) done(evaluation.meshes[i]);
+  };
+  if (alone)
+    for (std::size_t i = 0; i < dataset.meshes.size(); ++i) one(i);
+  else
+    context.parallel_for(dataset.meshes.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) one(i);
+    });
+  if (context.cancelled()) throw Error("interrupted", interrupted_exit_code);
+  evaluation.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return evaluation;
+}
+
+std::vector<const MeshEvaluation*> all_of(const Evaluation& evaluation) {
+  std::vector<const MeshEvaluation*> meshes;
+  for (const MeshEvaluation& mesh : evaluation.meshes) meshes.push_back(&mesh);
+  return meshes;
+}
+
+}  // namespace toposcope

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/errors.h"
+#include "evaluation/evaluation.h"
+
+namespace toposcope {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+Json as_json(const MeshEvaluation& mesh) {
+  Json features = Json::object();
+  for (const FeatureJudgement& judged : mesh.judgement.features)
+    features[judged.feature] = {{"verdict", to_string(judged.verdict)},
+                                {"distance", finite(judged.distance)},
+                                {"distance_edges", finite(judged.distance / mesh.judgement.mean_edge)},
+                                {"distance_diagonal", finite(judged.distance / mesh.judgement.diagonal)},
+                                {"probability", finite(judged.probability)}};
+  Json json = {{"name", mesh.name},   {"object", mesh.object},   {"variant", mesh.variant},
+               {"faces", mesh.faces}, {"time_ms", mesh.time_ms}, {"features", features}};
+  if (!mesh.error.empty()) json["error"] = mesh.error;
+  if (mesh.class_known())
+    json["class"] = {{"expected", mesh.expected_class},
+                     {"found", mesh.found_class.empty() ? Json() : Json(mesh.found_class)},
+                     {"probability", mesh.class_probability}};
+  json["satisfied"] = mesh.satisfied;
+  return json;
+}
+
+Json as_json(const Evaluation& evaluation) {
+  const std::vector<const MeshEvaluation*> meshes = all_of(evaluation);
+  Json features = Json::object();
+  for (const FeatureSummary& s : summarize(meshes))
+    features[s.name] = {{"right", s.right},           {"wrong", s.wrong},
+                        {"missed", s.missed},         {"absent", s.absent},
+                        {"spurious", s.spurious},     {"mean_distance", s.distance},
+                        {"mean_edges", s.edges},      {"worst_edges", s.worst_edges},
+                        {"mean_diagonal", s.diagonal}};
+  const Reliability reliable = reliability(meshes);
+  Json bins = Json::array();
+  for (const ReliabilityBin& bin : reliable.bins)
+    bins.push_back({{"count", bin.count}, {"right", bin.right}, {"mean_probability", bin.probability}});
+  Json json = {{"dataset", evaluation.dataset},
+               {"summary", evaluation.summary},
+               {"model", evaluation.model},
+               {"pipeline", evaluation.pipeline},
+               {"judge", evaluation.by_class ? "class" : "features"},
+               {"seconds", evaluation.seconds},
+               {"features", features},
+               {"confusion", confusion(meshes)},
+               {"calibration", {{"expected_error", reliable.expected_calibration_error}, {"bins", bins}}},
+               {"absent_files", evaluation.absent},
+               {"meshes", Json::array()}};
+  for (const MeshEvaluation& mesh : evaluation.meshes) json["meshes"].push_back(as_json(mesh));
+  return json;
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == text.npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + "\"";
+}
+
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.8g}", value) : "";
+}
+
+/// What was said of a feature or class, before and now.
+using Verdicts = std::map<std::string, std::string>;
+
+Verdicts verdicts_of(const nlohmann::json& mesh) {
+  Verdicts verdicts;
+  for (const auto& [name, feature] : mesh.at("features").items())
+    verdicts[name] = feature.at("verdict").get<std::string>();
+  if (mesh.contains("class")) {
+    const auto& found = mesh["class"].at("found");
+    verdicts["class"] = found.is_null() ? "unknown" : found.get<std::string>();
+  }
+  return verdicts;
+}
+
+const nlohmann::json* find_named(const nlohmann::json& list, const char* key, const std::string& name) {
+  for (const auto& each : list)
+    if (each.at(key) == name) return &each;
+  return nullptr;
+}
+
+}  // namespace
+
+std::string to_json(const std::vector<Evaluation>& evaluations) {
+  Json root = {{"schema", "toposcope.evaluation/1"}, {"datasets", Json::array()}};
+  for (const Evaluation& evaluation : evaluations) root["datasets"].push_back(as_json(evaluation));
+  return root.dump(1) + "\n";
+}
+
+std::string to_csv(const std::vector<Evaluation>& evaluations) {
+  std::string text =
+      "dataset,mesh,object,variant,faces,feature,verdict,distance,distance_edges,distance_diagonal,probability,time_"
+      "ms\n";
+  for (const Evaluation& evaluation : evaluations)
+    for (const MeshEvaluation& mesh : evaluation.meshes) {
+      const std::string head = fmt::format("{},{},{},{},{}", quoted(evaluation.dataset), quoted(mesh.name),
+                                           quoted(mesh.object), quoted(mesh.variant), mesh.faces);
+      for (const FeatureJudgement& f : mesh.judgement.features)
+        text += fmt::format("{},{},{},{},{},{},{},{:.3f}\n", head, quoted(f.feature), to_string(f.verdict),
+                            number(f.distance), number(f.distance / mesh.judgement.mean_edge),
+                            number(f.distance / mesh.judgement.diagonal), number(f.probability), mesh.time_ms);
+      if (mesh.class_known())
+        text += fmt::format("{},class {},{},,,,{},{:.3f}\n", head, quoted(mesh.expected_class),
+                            mesh.class_right() ? "right" : "wrong", number(mesh.class_probability), mesh.time_ms);
+    }
+  return text;
+}
+
+std::vector<Table> changes(const Evaluation& evaluation, const std::string& baseline_json, const std::string& file) {
+  Table table{"Changed since " + file, {"mesh", "", "before", "now"}, {}, {}};
+  try {
+    const nlohmann::json root = nlohmann::json::parse(baseline_json);
+    if (root.value("schema", "") != "toposcope.evaluation/1")
+      throw UsageError(file + ": is no evaluation; --baseline takes the evaluation.json of an earlier one");
+    const nlohmann::json* before = find_named(root.at("datasets"), "dataset", evaluation.dataset);
+    if (!before) {
+      table.note = "no data set '" + evaluation.dataset + "' there";
+      return {table};
+    }
+    std::size_t better = 0, worse = 0, unknown = 0;
+    const auto good = [](const std::string& verdict, const std::string& expected) {
+      return verdict == "right" || verdict == "absent" || (!expected.empty() && verdict == expected);
+    };
+    for (const MeshEvaluation& mesh : evaluation.meshes) {
+      const nlohmann::json* old = find_named(before->at("meshes"), "name", mesh.name);
+      if (!old) {
+        ++unknown;
+        continue;
+      }
+      const Verdicts was = verdicts_of(*old), is = verdicts_of(nlohmann::json::parse(as_json(mesh).dump()));
+      for (const auto& [name, verdict] : is) {
+        const auto at = was.find(name);
+        if (at == was.end() || at->second == verdict) continue;
+        const std::string expected = name == "class" ? mesh.expected_class : "";
+        better += good(verdict, expected) && !good(at->second, expected);
+        worse += !good(verdict, expected) && good(at->second, expected);
+        table.rows.push_back({mesh.name, name, at->second, verdict});
+      }
+    }
+    const std::vector<FeatureSummary> summaries = summarize(all_of(evaluation));
+    const auto& all = before->at("features").at("all");
+    table.note = fmt::format(
+        "{} better, {} worse; mean distance {:.3f} mean edges, was {:.3f}; calibration error {:.3f}, was {:.3f}",
+        better, worse, summaries.back().edges, all.at("mean_edges").get<double>(),
+        reliability(all_of(evaluation)).expected_calibration_error,
+        before->at("calibration").at("expected_error").get<double>());
+    if (unknown > 0) table.note += fmt::format("; {} meshes are new", unknown);
+  } catch (const nlohmann::json::exception& error) {
+    throw UsageError(file + ": is no evaluation (" + error.what() +
+                     "); --baseline takes the evaluation.json of an earlier one");
+  }
+  return {table};
+}
+
+}  // namespace toposcope
