@@ -40,9 +40,19 @@ SampleKind cup_kind();
 Solid make_cup(const ParameterValues& parameters);
 SampleKind tee_kind();
 Solid make_tee(const ParameterValues& parameters);
+SampleKind cross_kind();
+Solid make_cross(const ParameterValues& parameters);
+SampleKind wye_kind();
+Solid make_wye(const ParameterValues& parameters);
+SampleKind elbow_kind();
+Solid make_elbow(const ParameterValues& parameters);
+SampleKind tricorner_kind();
+Solid make_tricorner(const ParameterValues& parameters);
 
 /// A row for a parameter that is a length.
 OptionRow length_parameter(const char* name, const char* default_value, const char* minimum, const char* meaning);
+/// A row for a parameter that is an angle, in degrees.
+OptionRow angle_parameter(const char* name, const char* default_value, const char* meaning);
 /// A row for a part that may be left out: 0 or 1.
 OptionRow switch_parameter(const char* name, const char* default_value, const char* meaning);
 double parameter(const ParameterValues& values, std::string_view name);
