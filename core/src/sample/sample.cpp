@@ -25,8 +25,9 @@ struct Maker {
   SampleKind (*kind)();
   Solid (*make)(const ParameterValues&);
 };
-constexpr Maker makers[] = {{cup_kind, make_cup},     {tee_kind, make_tee},     {wye_kind, make_wye},
-                            {cross_kind, make_cross}, {elbow_kind, make_elbow}, {tricorner_kind, make_tricorner}};
+constexpr Maker makers[] = {{cup_kind, make_cup},          {tee_kind, make_tee},     {wye_kind, make_wye},
+                            {cross_kind, make_cross},      {elbow_kind, make_elbow}, {tricorner_kind, make_tricorner},
+                            {airplane_kind, make_airplane}};
 
 double to_number(const std::string& text) {
   double value = 0;
@@ -55,11 +56,11 @@ void check_request(const SampleRequest& request) {
 /// Meshes the solid on a grid that resolves its thinnest part and gives more faces than asked for, and thins that.
 TriangleSoup mesh_solid(const Solid& solid, const SampleRequest& request, Context& context) {
   const double faces = request.faces;
-  double spacing = 0.55 * solid.thinnest;  // below 1 / sqrt(3): no cell meets both sides of a wall
+  double spacing = 0.55 * (solid.thinnest + 2 * solid.level);  // below 1 / sqrt(3): no cell meets both sides of a wall
   TriangleSoup fine;
   for (int attempt = 0; attempt < 8; ++attempt) {
     try {
-      fine = extract_isosurface(solid.surface, solid.low, solid.high, spacing, context);
+      fine = extract_isosurface(solid.surface, solid.low, solid.high, spacing, solid.level, context);
     } catch (const std::length_error&) {
       throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
                                    solid.thinnest_parameter, solid.thinnest));
@@ -187,6 +188,9 @@ ParameterValues check_parameters(const SampleKind& kind, const std::map<std::str
                                            : it->second;
     if (row.type == OptionType::boolean)
       require(value == 0 || value == 1, kind.name, row.name, value, "it must be true or false",
+              "the default is " + row.default_value);
+    else if (row.minimum.empty())
+      require(std::isfinite(value), kind.name, row.name, value, "it must be a finite number",
               "the default is " + row.default_value);
     else if (row.unit == "length")
       require(std::isfinite(value) && value > to_number(row.minimum), kind.name, row.name, value,

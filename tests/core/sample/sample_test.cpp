@@ -156,6 +156,15 @@ INSTANTIATE_TEST_SUITE_P(
                          {{"socket", 1}, {"run_length", 180}, {"branch_length", 120}, {"branch_angle", 60}},
                          -2},
                     Case{"socket_elbow_5k", "elbow", 5000, {{"socket", 1}}, 0},
+                    Case{"airplane_5k", "airplane", 5000, {}, 2}, Case{"airplane_10k", "airplane", 10000, {}, 2},
+                    Case{"t_tail_8k", "airplane", 8000, {{"t_tail", 1}, {"wing_height", 4}, {"wing_sweep", 30}}, 2},
+                    Case{"two_engines_8k", "airplane", 8000, {{"engines", 2}}, 2},
+                    Case{"four_engines_8k", "airplane", 8000, {{"engines", 4}, {"engine_drop", 1}}, 2},
+                    Case{"rear_engines_8k",
+                         "airplane",
+                         8000,
+                         {{"engines", 2}, {"engines_at_rear", 1}, {"engine_drop", 6}, {"wing_position", 28}},
+                         2},
                     Case{
                         "socket_tee_5k", "tee", 5000, {{"socket", 1}, {"run_length", 140}, {"branch_length", 70}}, -2}),
     [](const auto& parameter) { return std::string(parameter.param.name); });
