@@ -189,7 +189,7 @@ int dispatch(int argc, char** argv) {
 
   SampleOptions sample_options;
   CLI::App* sample_app = app.add_subcommand("sample", "make a parametric object and its truth");
-  sample_app->add_option("kind", sample_options.kind, "cup, tee; see --list");
+  sample_app->add_option("kind", sample_options.kind, "cup, tee, ...; see --list");
   sample_app->add_flag("--list", sample_options.list, "list the kinds and their parameters");
   sample_app->add_option("-o,--out", sample_options.out, "mesh to write; its truth goes beside it")->type_name("MESH");
   sample_app->add_option("--faces", sample_options.faces, "number of faces")->capture_default_str();

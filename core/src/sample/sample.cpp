@@ -21,6 +21,14 @@ namespace toposcope {
 
 namespace {
 
+struct Maker {
+  SampleKind (*kind)();
+  Solid (*make)(const ParameterValues&);
+};
+constexpr Maker makers[] = {{cup_kind, make_cup},          {tee_kind, make_tee},     {wye_kind, make_wye},
+                            {cross_kind, make_cross},      {elbow_kind, make_elbow}, {tricorner_kind, make_tricorner},
+                            {airplane_kind, make_airplane}};
+
 double to_number(const std::string& text) {
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);  // not strtod: it follows the locale
@@ -48,11 +56,11 @@ void check_request(const SampleRequest& request) {
 /// Meshes the solid on a grid that resolves its thinnest part and gives more faces than asked for, and thins that.
 TriangleSoup mesh_solid(const Solid& solid, const SampleRequest& request, Context& context) {
   const double faces = request.faces;
-  double spacing = 0.55 * solid.thinnest;  // below 1 / sqrt(3): no cell meets both sides of a wall
+  double spacing = 0.55 * (solid.thinnest + 2 * solid.level);  // below 1 / sqrt(3): no cell meets both sides of a wall
   TriangleSoup fine;
   for (int attempt = 0; attempt < 8; ++attempt) {
     try {
-      fine = extract_isosurface(solid.surface, solid.low, solid.high, spacing, context);
+      fine = extract_isosurface(solid.surface, solid.low, solid.high, spacing, solid.level, context);
     } catch (const std::length_error&) {
       throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
                                    solid.thinnest_parameter, solid.thinnest));
@@ -136,6 +144,10 @@ OptionRow length_parameter(const char* name, const char* default_value, const ch
   return {name, OptionType::real, "length", default_value, minimum, "", meaning};
 }
 
+OptionRow angle_parameter(const char* name, const char* default_value, const char* meaning) {
+  return {name, OptionType::real, "degrees", default_value, "-180", "180", meaning};
+}
+
 OptionRow switch_parameter(const char* name, const char* default_value, const char* meaning) {
   return {name, OptionType::boolean, "", default_value, "", "", meaning};
 }
@@ -177,9 +189,16 @@ ParameterValues check_parameters(const SampleKind& kind, const std::map<std::str
     if (row.type == OptionType::boolean)
       require(value == 0 || value == 1, kind.name, row.name, value, "it must be true or false",
               "the default is " + row.default_value);
-    else
+    else if (row.minimum.empty())
+      require(std::isfinite(value), kind.name, row.name, value, "it must be a finite number",
+              "the default is " + row.default_value);
+    else if (row.unit == "length")
       require(std::isfinite(value) && value > to_number(row.minimum), kind.name, row.name, value,
               "it must be a finite number greater than " + row.minimum, "the default is " + row.default_value);
+    else
+      require(value >= to_number(row.minimum) && value <= to_number(row.maximum), kind.name, row.name, value,
+              fmt::format("it must lie between {} and {}", row.minimum, row.maximum),
+              "the default is " + row.default_value);
     values.emplace_back(row.name, value);
     names.push_back(row.name);
   }
@@ -191,12 +210,14 @@ ParameterValues check_parameters(const SampleKind& kind, const std::map<std::str
 }
 
 std::vector<SampleKind> sample_kinds() {
-  return {cup_kind(), tee_kind()};
+  std::vector<SampleKind> kinds;
+  for (const Maker& maker : makers) kinds.push_back(maker.kind());
+  return kinds;
 }
 
 Solid make_solid(const std::string& kind, const ParameterValues& parameters) {
-  if (kind == "cup") return make_cup(parameters);
-  if (kind == "tee") return make_tee(parameters);
+  for (const Maker& maker : makers)
+    if (maker.kind().name == kind) return maker.make(parameters);
   throw std::logic_error("sample kind '" + kind + "' is listed but cannot be made");
 }
 

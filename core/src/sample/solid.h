@@ -16,8 +16,9 @@ namespace toposcope {
 struct Solid {
   Implicit surface;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< contain the solid
-  double thinnest = 0;                  ///< least thickness of material or gap: no cell of the grid may reach across it
-  std::string thinnest_parameter;       ///< the parameter that sets it
+  double thinnest = 0;             ///< least thickness of material or gap: no cell of the grid may reach across it
+  std::string thinnest_parameter;  ///< the parameter that sets it
+  double level = 0;  ///< of the solid where material is thinner than gaps: distance outside at which it is meshed
   std::vector<SampleFeature> features;  ///< without `vertices`
   std::vector<std::string> part_names;
   std::function<std::size_t(const Vec3&)> part_of;  ///< part of a point on the surface
@@ -40,9 +41,21 @@ SampleKind cup_kind();
 Solid make_cup(const ParameterValues& parameters);
 SampleKind tee_kind();
 Solid make_tee(const ParameterValues& parameters);
+SampleKind cross_kind();
+Solid make_cross(const ParameterValues& parameters);
+SampleKind wye_kind();
+Solid make_wye(const ParameterValues& parameters);
+SampleKind elbow_kind();
+Solid make_elbow(const ParameterValues& parameters);
+SampleKind tricorner_kind();
+Solid make_tricorner(const ParameterValues& parameters);
+SampleKind airplane_kind();
+Solid make_airplane(const ParameterValues& parameters);
 
-/// A row for a parameter that is a length.
+/// A row for a parameter that is a length, greater than `minimum` unless that is empty.
 OptionRow length_parameter(const char* name, const char* default_value, const char* minimum, const char* meaning);
+/// A row for a parameter that is an angle, in degrees.
+OptionRow angle_parameter(const char* name, const char* default_value, const char* meaning);
 /// A row for a part that may be left out: 0 or 1.
 OptionRow switch_parameter(const char* name, const char* default_value, const char* meaning);
 double parameter(const ParameterValues& values, std::string_view name);
