@@ -87,6 +87,10 @@ struct SampleOptions : CommonOptions {
   std::map<std::string, std::string> parameters;
   fs::path out;
   bool list = false;
+  bool scan = false;
+  std::uint32_t viewpoints = 20, seen_from = 0;
+  double scan_noise = 0.0005;
+  int smoothing = 10;
 };
 
 /// Each returns the exit code; errors leave as exceptions (base/errors.h).

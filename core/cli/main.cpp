@@ -197,10 +197,22 @@ int dispatch(int argc, char** argv) {
       ->capture_default_str();
   std::vector<std::string> assignments;
   sample_app->add_option("--set", assignments, "one parameter: name=value")->type_name("P=V")->allow_extra_args(false);
-  sample_app->add_option("--seed", sample_options.seed, "seed of the noise")->capture_default_str();
+  sample_app->add_option("--seed", sample_options.seed, "seed of noise and pose")->capture_default_str();
   sample_app->add_option("--threads", sample_options.threads, "threads; 0: one per processor")
       ->check(CLI::Range(0U, 1024U))
       ->capture_default_str();
+  sample_app->add_flag("--scan", sample_options.scan, "turn the object, scan it and make the mesh of what was seen");
+  const std::vector<CLI::Option*> scan_options = {
+      sample_app->add_option("--views", sample_options.viewpoints, "viewpoints of the scan")->capture_default_str(),
+      sample_app
+          ->add_option("--view", sample_options.seen_from, "keep what is seen from so many of them; 0: all, closed")
+          ->capture_default_str(),
+      sample_app->add_option("--scan-noise", sample_options.scan_noise, "sd along the ray, part of the diagonal")
+          ->capture_default_str(),
+      sample_app->add_option("--scan-smooth", sample_options.smoothing, "passes of Taubin's filter after the scan")
+          ->capture_default_str()};
+  for (CLI::Option* option : scan_options) option->needs("--scan");
+  add_plugin_dirs(sample_app, sample_options.plugin_dirs);
   sample_app->callback([&] {
     for (const std::string& assignment : assignments) {
       const std::size_t equals = assignment.find('=');

@@ -9,6 +9,8 @@
 #include "io/mesh_io.h"
 #include "plugin/option_check.h"
 #include "sample/sample.h"
+#include "sample/scan.h"
+#include "session.h"
 
 namespace toposcope::cli {
 namespace {
@@ -38,6 +40,29 @@ SampleRequest request_of(const SampleOptions& options) {
   return request;
 }
 
+Sample scanned(const SampleOptions& options) {
+  if (options.noise > 0)
+    throw UsageError(
+        fmt::format("--noise {}: moves the vertices of an exact mesh; a scan has --scan-noise", options.noise));
+  const ScanSettings settings{.faces = options.faces,
+                              .viewpoints = options.viewpoints,
+                              .seen_from = options.seen_from,
+                              .noise_rel = options.scan_noise,
+                              .smoothing = options.smoothing,
+                              .seed = options.seed};
+  Session session(options);
+  const Sample target = make_scan_target(request_of(options), session.context());
+  return scan(target, settings, scan_filters(session.host(), settings), session.context());
+}
+
+Sample exact(const SampleOptions& options) {
+  RunSettings settings;
+  settings.threads = options.threads;
+  settings.seed = options.seed;
+  RunContext context(settings);
+  return make_sample(request_of(options), context);
+}
+
 }  // namespace
 
 int sample(const SampleOptions& options) {
@@ -47,11 +72,7 @@ int sample(const SampleOptions& options) {
   }
   if (options.kind.empty()) throw UsageError("sample: name a kind of object; toposcope sample --list shows them");
   if (options.out.empty()) throw UsageError("sample: where to? give the mesh to write with -o");
-  RunSettings settings;
-  settings.threads = options.threads;
-  settings.seed = options.seed;
-  RunContext context(settings);
-  const Sample made = make_sample(request_of(options), context);
+  const Sample made = options.scan ? scanned(options) : exact(options);
   const fs::path truth = fs::path(options.out).replace_extension(".truth.json");
   write_mesh(options.out, made.mesh.positions, made.mesh.triangles);
   write_file(truth, truth_json(made, options.out.filename().string()));

@@ -15,39 +15,9 @@ constexpr std::size_t block = 16;
 constexpr double steepest = 1.25;  ///< change of the function per unit of length
 constexpr Index none = std::numeric_limits<Index>::max();
 
-/// Node values on a grid, x fastest; its size is a multiple of the block in each direction.
-struct Grid {
-  Vec3 origin;
-  double spacing = 0;
-  std::array<std::size_t, 3> size = {0, 0, 0};
-  std::vector<float> values;
-
-  std::size_t node(std::size_t x, std::size_t y, std::size_t z) const { return x + size[0] * (y + size[1] * z); }
-  Vec3 position(std::size_t x, std::size_t y, std::size_t z, const Vec3& within = Vec3::Zero()) const {
-    const Vec3 corner(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
-    return origin + spacing * (corner + within);
-  }
-};
-
-Grid make_grid(const Vec3& low, const Vec3& high, double spacing) {
-  Grid grid;
-  grid.spacing = spacing;
-  // An odd offset keeps the planes of the object off the planes of the grid, where signs would be those of rounding.
-  grid.origin = low - spacing * Vec3(1.3713, 1.4159, 1.4771);
-  double total = 1;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double cells = std::ceil((high[i] - grid.origin[i]) / spacing + 1.5) + 1;
-    total *= cells + block;
-    if (total > 2147483648.0) throw std::length_error("a grid of more than 2^31 nodes");
-    grid.size[i] = (static_cast<std::size_t>(cells) + block - 1) / block * block;
-  }
-  grid.values.resize(grid.size[0] * grid.size[1] * grid.size[2]);
-  return grid;
-}
-
 /// Fills a cube of nodes: with its centre's value where that tells the sign of them all and none is next to the
 /// surface, else part by part.
-void fill_cube(Grid& grid, const Implicit& surface, double level, const std::array<std::size_t, 3>& at,
+void fill_cube(NodeGrid& grid, const Implicit& surface, double level, const std::array<std::size_t, 3>& at,
                std::size_t side) {
   const auto& [x0, y0, z0] = at;
   if (side == 1) {
@@ -68,7 +38,7 @@ void fill_cube(Grid& grid, const Implicit& surface, double level, const std::arr
               side / 2);
 }
 
-void fill(Grid& grid, const Implicit& surface, double level, Context& context) {
+void fill(NodeGrid& grid, const Implicit& surface, double level, Context& context) {
   const std::array<std::size_t, 3> blocks = {grid.size[0] / block, grid.size[1] / block, grid.size[2] / block};
   context.parallel_for(blocks[0] * blocks[1] * blocks[2], 4, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b)
@@ -78,7 +48,7 @@ void fill(Grid& grid, const Implicit& surface, double level, Context& context) {
 }
 
 /// The corners of a cell: bit 0 is x, bit 1 y, bit 2 z. Its edges join corners that differ in one bit.
-std::array<float, 8> corner_values(const Grid& grid, std::size_t x, std::size_t y, std::size_t z) {
+std::array<float, 8> corner_values(const NodeGrid& grid, std::size_t x, std::size_t y, std::size_t z) {
   std::array<float, 8> values;
   for (std::size_t c = 0; c < 8; ++c) values[c] = grid.values[grid.node(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2))];
   return values;
@@ -114,11 +84,23 @@ void add_quad(TriangleSoup& mesh, const std::array<Index, 4>& q) {
 
 }  // namespace
 
-TriangleSoup extract_isosurface(const Implicit& surface, const Vec3& low, const Vec3& high, double spacing,
-                                double level, Context& context) {
-  Grid grid = make_grid(low - Vec3::Constant(level), high + Vec3::Constant(level), spacing);
-  fill(grid, surface, level, context);
+NodeGrid make_node_grid(const Vec3& low, const Vec3& high, double spacing) {
+  NodeGrid grid;
+  grid.spacing = spacing;
+  // An odd offset keeps the planes of the object off the planes of the grid, where signs would be those of rounding.
+  grid.origin = low - spacing * Vec3(1.3713, 1.4159, 1.4771);
+  double total = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double cells = std::ceil((high[i] - grid.origin[i]) / spacing + 1.5) + 1;
+    total *= cells + block;
+    if (total > 2147483648.0) throw std::length_error("a grid of more than 2^31 nodes");
+    grid.size[i] = (static_cast<std::size_t>(cells) + block - 1) / block * block;
+  }
+  grid.values.resize(grid.size[0] * grid.size[1] * grid.size[2]);
+  return grid;
+}
 
+TriangleSoup surface_net(const NodeGrid& grid, const std::function<Vec3(const Vec3&)>& place, Context& context) {
   TriangleSoup mesh;
   std::vector<Index> vertex_of(grid.values.size(), none);
   for (std::size_t z = 0; z + 1 < grid.size[2]; ++z)
@@ -130,9 +112,10 @@ TriangleSoup extract_isosurface(const Implicit& surface, const Vec3& low, const 
         vertex_of[grid.node(x, y, z)] = static_cast<Index>(mesh.positions.size());
         mesh.positions.push_back(grid.position(x, y, z, crossing_mean(values)));
       }
-  context.parallel_for(mesh.positions.size(), 1024, [&](std::size_t first, std::size_t last) {
-    for (std::size_t v = first; v < last; ++v) mesh.positions[v] = project(surface, mesh.positions[v], spacing);
-  });
+  if (place)
+    context.parallel_for(mesh.positions.size(), 1024, [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) mesh.positions[v] = place(mesh.positions[v]);
+    });
 
   for (std::size_t z = 1; z + 1 < grid.size[2]; ++z)
     for (std::size_t y = 1; y + 1 < grid.size[1]; ++y)
@@ -150,6 +133,14 @@ TriangleSoup extract_isosurface(const Implicit& surface, const Vec3& low, const 
         }
       }
   return mesh;
+}
+
+TriangleSoup extract_isosurface(const Implicit& surface, const Vec3& low, const Vec3& high, double spacing,
+                                double level, Context& context) {
+  NodeGrid grid = make_node_grid(low - Vec3::Constant(level), high + Vec3::Constant(level), spacing);
+  fill(grid, surface, level, context);
+  return surface_net(
+      grid, [&](const Vec3& p) { return project(surface, p, spacing); }, context);
 }
 
 bool is_closed_manifold(const TriangleSoup& mesh) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <functional>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -8,6 +10,29 @@
 #include "toposcope/context.h"
 
 namespace toposcope {
+
+/// Values on the nodes of a cubic grid, x fastest, negative inside.
+struct NodeGrid {
+  Vec3 origin = Vec3::Zero();
+  double spacing = 0;
+  std::array<std::size_t, 3> size = {0, 0, 0};
+  std::vector<float> values;
+
+  std::size_t node(std::size_t x, std::size_t y, std::size_t z) const { return x + size[0] * (y + size[1] * z); }
+  Vec3 position(std::size_t x, std::size_t y, std::size_t z, const Vec3& within = Vec3::Zero()) const {
+    const Vec3 corner(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+    return origin + spacing * (corner + within);
+  }
+};
+
+/// A grid from `low` to `high` and some nodes more; each size is a multiple of 16.
+/// \throw std::length_error  more nodes than fit into 2^31
+NodeGrid make_node_grid(const Vec3& low, const Vec3& high, double spacing);
+
+/// Surface nets (Gibson 1998): one vertex for each cell that the surface crosses, at the mean of the points where it
+/// crosses the cell's edges; one quadrilateral for each grid edge it crosses, cut along its shorter diagonal. The outer
+/// nodes must lie outside. \param place  moves the vertices before the quadrilaterals are cut; may be empty
+TriangleSoup surface_net(const NodeGrid& grid, const std::function<Vec3(const Vec3&)>& place, Context& context);
 
 /// Surface nets (Gibson 1998) on a cubic grid of the given spacing: one vertex for each cell that the surface
 /// crosses, moved onto the surface along the gradient; one quadrilateral for each grid edge it crosses, cut along its

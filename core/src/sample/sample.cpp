@@ -35,15 +35,6 @@ double to_number(const std::string& text) {
   return value;
 }
 
-const SampleKind& find_kind(const std::vector<SampleKind>& kinds, const std::string& name) {
-  std::vector<std::string> names;
-  for (const SampleKind& kind : kinds) {
-    if (kind.name == name) return kind;
-    names.push_back(kind.name);
-  }
-  throw UsageError(fmt::format("sample kind '{}' is not known: {}", name, name_remedy(name, names)));
-}
-
 void check_request(const SampleRequest& request) {
   if (request.faces < 500 || request.faces > 2000000)
     throw UsageError(fmt::format("{}: faces is {}: it must lie between 500 and 2000000; the default is 20000",
@@ -84,30 +75,6 @@ TriangleSoup mesh_solid(const Solid& solid, const SampleRequest& request, Contex
   return mesh;
 }
 
-/// For each point the nearest vertex; points whose vertex is taken already are dropped.
-void mark_vertices(SampleFeature& feature, const std::vector<Vec3>& positions) {
-  std::set<Index> taken;
-  std::vector<Vec3> points;
-  std::vector<Index> renumbered(feature.points.size());
-  std::vector<bool> kept(feature.points.size(), false);
-  for (std::size_t i = 0; i < feature.points.size(); ++i) {
-    const auto distance = [&](const Vec3& p) { return (p - feature.points[i]).squaredNorm(); };
-    const auto nearest = std::min_element(positions.begin(), positions.end(),
-                                          [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
-    const auto vertex = static_cast<Index>(nearest - positions.begin());
-    if (!taken.insert(vertex).second) continue;
-    kept[i] = true;
-    renumbered[i] = static_cast<Index>(points.size());
-    points.push_back(feature.points[i]);
-    feature.vertices.push_back(vertex);
-  }
-  feature.points = std::move(points);
-  for (auto& [name, members] : feature.groups) {
-    std::erase_if(members, [&](Index i) { return !kept[i]; });
-    for (Index& i : members) i = renumbered[i];
-  }
-}
-
 /// Standard normal numbers in pairs (Box and Muller 1958): std::normal_distribution differs between libraries.
 struct Gaussian {
   std::mt19937_64 engine;
@@ -139,6 +106,38 @@ void add_noise(std::vector<Vec3>& positions, const Implicit& surface, const Samp
 }
 
 }  // namespace
+
+SampleKind find_kind(const std::vector<SampleKind>& kinds, const std::string& name) {
+  std::vector<std::string> names;
+  for (const SampleKind& kind : kinds) {
+    if (kind.name == name) return kind;
+    names.push_back(kind.name);
+  }
+  throw UsageError(fmt::format("sample kind '{}' is not known: {}", name, name_remedy(name, names)));
+}
+
+void mark_vertices(SampleFeature& feature, const std::vector<Vec3>& positions) {
+  std::set<Index> taken;
+  std::vector<Vec3> points;
+  std::vector<Index> renumbered(feature.points.size());
+  std::vector<bool> kept(feature.points.size(), false);
+  for (std::size_t i = 0; i < feature.points.size(); ++i) {
+    const auto distance = [&](const Vec3& p) { return (p - feature.points[i]).squaredNorm(); };
+    const auto nearest = std::min_element(positions.begin(), positions.end(),
+                                          [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
+    const auto vertex = static_cast<Index>(nearest - positions.begin());
+    if (!taken.insert(vertex).second) continue;
+    kept[i] = true;
+    renumbered[i] = static_cast<Index>(points.size());
+    points.push_back(feature.points[i]);
+    feature.vertices.push_back(vertex);
+  }
+  feature.points = std::move(points);
+  for (auto& [name, members] : feature.groups) {
+    std::erase_if(members, [&](Index i) { return !kept[i]; });
+    for (Index& i : members) i = renumbered[i];
+  }
+}
 
 OptionRow length_parameter(const char* name, const char* default_value, const char* minimum, const char* meaning) {
   return {name, OptionType::real, "length", default_value, minimum, "", meaning};
@@ -223,7 +222,7 @@ Solid make_solid(const std::string& kind, const ParameterValues& parameters) {
 
 Sample make_sample(const SampleRequest& request, Context& context) {
   const std::vector<SampleKind> kinds = sample_kinds();
-  const SampleKind& kind = find_kind(kinds, request.kind);
+  const SampleKind kind = find_kind(kinds, request.kind);
   check_request(request);
   Sample sample;
   sample.kind = request.kind;

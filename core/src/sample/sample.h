@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +42,16 @@ struct SampleFeature {
   std::vector<std::pair<std::string, std::vector<Index>>> groups;  ///< named sets of indices into `points`
 };
 
+/// How an object was scanned (scan.h).
+struct ScanRecord {
+  Index viewpoints = 0, seen_from = 0;  ///< seen_from 0: all
+  double noise_rel = 0;                 ///< standard deviation along the ray, in diagonals of the object's box
+  int smoothing = 0;                    ///< passes of Taubin's filter
+  double spacing = 0;                   ///< of the grid
+  std::array<Vec3, 3> rotation = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};  ///< rows: scan = rotation * object
+  Vec3 translation = Vec3::Zero();                                               ///< + translation
+};
+
 struct Sample {
   std::string kind;
   std::vector<std::pair<std::string, double>> parameters;  ///< all, in the order of the kind's table
@@ -49,6 +61,8 @@ struct Sample {
   std::vector<SampleFeature> features;
   std::vector<std::string> part_names;
   std::vector<std::uint8_t> face_part;  ///< for each triangle an index into part_names
+  double thinnest = 0;                  ///< least thickness of material or gap; 0: not known
+  std::optional<ScanRecord> scan;
 };
 
 /// Makes a closed, oriented, manifold mesh of the object and its truth.

@@ -27,6 +27,9 @@ struct Solid {
 /// Values of all parameters of a kind, in the order of its table.
 using ParameterValues = std::vector<std::pair<std::string, double>>;
 
+/// \throw UsageError  there is none of that name
+SampleKind find_kind(const std::vector<SampleKind>& kinds, const std::string& name);
+
 /// Fills in the defaults and checks names and ranges. \throw UsageError
 ParameterValues check_parameters(const SampleKind& kind, const std::map<std::string, double>& given);
 
@@ -51,6 +54,9 @@ SampleKind tricorner_kind();
 Solid make_tricorner(const ParameterValues& parameters);
 SampleKind airplane_kind();
 Solid make_airplane(const ParameterValues& parameters);
+
+/// For each point of a feature the nearest vertex; points whose vertex is taken already are dropped.
+void mark_vertices(SampleFeature& feature, const std::vector<Vec3>& positions);
 
 /// A row for a parameter that is a length, greater than `minimum` unless that is empty.
 OptionRow length_parameter(const char* name, const char* default_value, const char* minimum, const char* meaning);

@@ -53,6 +53,18 @@ Json feature_json(const SampleFeature& feature) {
   return json;
 }
 
+Json scan_json(const ScanRecord& scan) {
+  Json rotation = Json::array();
+  for (const Vec3& row : scan.rotation) rotation.push_back(triple(row));
+  return {{"viewpoints", scan.viewpoints},
+          {"seen_from", scan.seen_from},
+          {"noise_rel", scan.noise_rel},
+          {"smoothing", scan.smoothing},
+          {"spacing", scan.spacing},
+          {"rotation", rotation},
+          {"translation", triple(scan.translation)}};
+}
+
 }  // namespace
 
 std::string truth_json(const Sample& sample, const std::string& mesh_file) {
@@ -70,6 +82,7 @@ std::string truth_json(const Sample& sample, const std::string& mesh_file) {
   for (const auto& [name, value] : sample.parameters) parameters[name] = value;
   json["sample"] = {
       {"kind", sample.kind}, {"parameters", parameters}, {"noise_rel", sample.noise_rel}, {"seed", sample.seed}};
+  if (sample.scan) json["sample"]["scan"] = scan_json(*sample.scan);
   return json.dump(1) + "\n";
 }
 

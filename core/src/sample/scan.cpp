@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sample/scan.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "base/errors.h"
+#include "mesh/repair.h"
+#include "pipeline/filters.h"
+#include "plugin/plugin_host.h"
+#include "sample/depth_fusion.h"
+#include "sample/scan_parts.h"
+#include "sample/thin.h"
+
+namespace toposcope {
+
+namespace {
+
+void check(const ScanSettings& settings) {
+  const auto refuse = [](const std::string& what) { throw UsageError("scan: " + what); };
+  if (settings.viewpoints < 4 || settings.viewpoints > 1000)
+    refuse(fmt::format("viewpoints is {}: it must lie between 4 and 1000; the default is 20", settings.viewpoints));
+  if (settings.seen_from > settings.viewpoints)
+    refuse(fmt::format("seen from {} viewpoints of {}: ask for fewer, or for more viewpoints", settings.seen_from,
+                       settings.viewpoints));
+  if (!(settings.noise_rel >= 0 && settings.noise_rel <= 0.02))
+    refuse(fmt::format("noise is {} box diagonals: it must lie between 0 and 0.02; the default is 0.0005",
+                       settings.noise_rel));
+}
+
+struct Extent {
+  Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
+  double diagonal() const { return (high - low).norm(); }
+  Vec3 center() const { return (low + high) / 2; }
+};
+
+Extent extent_of(const std::vector<Vec3>& positions) {
+  Extent extent;
+  for (const Vec3& p : positions) {
+    extent.low = extent.low.cwiseMin(p);
+    extent.high = extent.high.cwiseMax(p);
+  }
+  return extent;
+}
+
+double area_of(const TriangleSoup& mesh) {
+  double area = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3& a = mesh.positions[t[0]];
+    area += (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a).norm() / 2;
+  }
+  return area;
+}
+
+/// The N directions nearest to a random one.
+std::vector<Vec3> chosen_directions(const ScanSettings& settings, const Vec3& side) {
+  std::vector<Vec3> directions = spread_directions(settings.viewpoints);
+  if (settings.seen_from == 0) return directions;
+  std::stable_sort(directions.begin(), directions.end(),
+                   [&](const Vec3& a, const Vec3& b) { return a.dot(side) > b.dot(side); });
+  directions.resize(settings.seen_from);
+  return directions;
+}
+
+/// Numbers in [0, 1), the same with every standard library.
+struct Uniform {
+  std::mt19937_64 engine;
+  double operator()() { return static_cast<double>(engine() >> 11) * 0x1p-53; }
+};
+
+/// A uniformly distributed rotation (Shoemake 1992).
+Eigen::Matrix3d random_rotation(Uniform& uniform) {
+  const double u = uniform(), a = 2 * pi * uniform(), b = 2 * pi * uniform();
+  const double s = std::sqrt(1 - u), t = std::sqrt(u);
+  return Eigen::Quaterniond(s * std::sin(a), s * std::cos(a), t * std::sin(b), t * std::cos(b))
+      .normalized()
+      .toRotationMatrix();
+}
+
+/// Half the thinnest part, so that no cell meets both sides of a wall; less for many faces, more for much noise.
+double grid_spacing(const Sample& exact, const ScanSettings& settings, double diagonal) {
+  constexpr double thinnest_allowed = 0.02;  // of the diagonal, where the sample does not tell
+  const double wall = exact.thinnest > 0 ? exact.thinnest : thinnest_allowed * diagonal;
+  const double edge = std::sqrt(4 / std::sqrt(3.0) * area_of(exact.mesh) / settings.faces);
+  return std::max(std::min(0.5 * wall, 0.75 * edge), 2 * settings.noise_rel * diagonal);
+}
+
+}  // namespace
+
+std::vector<Stations::Filter> scan_filters(PluginHost& host, const ScanSettings& settings) {
+  const auto plugin = [&](const std::string& id, const std::vector<GivenOption>& given) {
+    const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id, "scan");
+    return Stations::Filter{id, host.filter(id, check_options(manifest.options, given, "scan: filter '" + id + "'"))};
+  };
+  // Normalising is the slow step: it gets few faces more than are wanted, and needs no more than three rounds for that.
+  return {plugin("taubin", {{"passes", std::to_string(settings.smoothing)}}),
+          {"thin", std::make_shared<Thin>(settings.faces + settings.faces / 3)},
+          plugin("normalise", {{"faces", std::to_string(settings.faces)}, {"rounds", "3"}})};
+}
+
+Sample scan(const Sample& exact, const ScanSettings& settings, std::span<const Stations::Filter> filters,
+            Context& context) {
+  check(settings);
+  const Extent extent = extent_of(exact.mesh.positions);
+  const double diagonal = extent.diagonal();
+  Uniform uniform{std::mt19937_64(settings.seed)};
+  const Eigen::Matrix3d rotation = random_rotation(uniform);
+  const Vec3 side = random_rotation(uniform).col(0);
+  const Vec3 to = diagonal * (2 * Vec3(uniform(), uniform(), uniform()) - Vec3::Ones());
+
+  // The scanner looks at the origin; the object moves to its place in the end.
+  Sample posed = exact;
+  for (Vec3& p : posed.mesh.positions) p = rotation * (p - extent.center());
+  double radius = 0;
+  for (const Vec3& p : posed.mesh.positions) radius = std::max(radius, p.norm());
+  const double spacing = grid_spacing(exact, settings, diagonal);
+  const double noise = settings.noise_rel * diagonal;
+  const std::vector<DepthView> views =
+      scan_depths(posed.mesh, chosen_directions(settings, side),
+                  {.pixel = spacing / 2, .distance = 3 * radius, .noise = noise, .seed = settings.seed}, context);
+  const Extent box = extent_of(posed.mesh.positions);
+  const Vec3 margin = Vec3::Constant(4 * noise);
+  const NodeGrid grid = fuse_depths(views, {.spacing = spacing, .behind = 1.7 * spacing, .noise = noise},
+                                    box.low - margin, box.high + margin, context);
+  TriangleSoup raw = surface_net(grid, {}, context);
+  if (settings.seen_from > 0) keep_measured(raw, views, spacing + 3 * noise, context);
+  keep_large_components(raw, settings.seen_from == 0);
+  raw.input_faces = static_cast<Index>(raw.triangles.size());
+  raw.face_origin.resize(raw.triangles.size());
+  std::iota(raw.face_origin.begin(), raw.face_origin.end(), Index{0});
+  const std::string name = "the scan of the " + exact.kind;
+  if (settings.seen_from > 0) repair(raw, name);
+  const Mesh surface(std::move(raw), name, &context);
+  const PreparedMesh prepared = apply_filters(surface, filters, context);
+
+  Sample made = scanned_truth(posed, prepared.view(), {rotation, extent.center(), to},
+                              settings.seen_from > 0 ? 3 * spacing : 0, context);
+  made.scan = ScanRecord{.viewpoints = settings.viewpoints,
+                         .seen_from = settings.seen_from,
+                         .noise_rel = settings.noise_rel,
+                         .smoothing = settings.smoothing,
+                         .spacing = spacing,
+                         .rotation = {rotation.row(0), rotation.row(1), rotation.row(2)},
+                         .translation = to - rotation * extent.center()};
+  made.seed = settings.seed;
+  return made;
+}
+
+}  // namespace toposcope
