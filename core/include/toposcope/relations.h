@@ -5,6 +5,7 @@
 #include <string>
 
 #include "toposcope/context.h"
+#include "toposcope/mesh_view.h"
 #include "toposcope/options.h"
 #include "toposcope/shapes.h"
 
@@ -21,6 +22,7 @@ struct RelationInput {
   std::span<const RelationOperand> features;  ///< in the order of the model, as many as the relation takes
   Box object_box;
   double mean_edge = 0;
+  const MeshView* mesh = nullptr;  ///< what the features are features of
 };
 
 /// How far a relation is from holding, in its natural unit (rad or mesh unit; the descriptor says which), and
@@ -39,7 +41,7 @@ struct RelationResult {
   double samples = 1;          ///< independent comparisons that the residual summarises (rms over so many)
 };
 
-/// Tests one relationship between two or more constructed features (dissertation 4.6). Thread-safe.
+/// Tests one relationship between constructed features (dissertation 4.6), or of one to the mesh. Thread-safe.
 class RelationTester {
  public:
   virtual ~RelationTester() = default;

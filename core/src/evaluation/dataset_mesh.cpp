@@ -3,6 +3,7 @@
 
 #include "io/mesh_io.h"
 #include "sample/sample.h"
+#include "sample/scan.h"
 
 namespace toposcope {
 namespace {
@@ -35,22 +36,31 @@ Truth truth_of(const Sample& sample) {
   return truth;
 }
 
-KnownMesh made(const DatasetMesh& item, Context& context) {
+Sample scanned(const SampleRequest& request, const DatasetMesh& item, PluginHost& host, Context& context) {
+  ScanSettings settings;
+  settings.faces = item.faces;
+  settings.seen_from = item.view;
+  settings.seed = item.seed;
+  if (item.noise) settings.noise_rel = *item.noise;
+  return scan(make_scan_target(request, context), settings, scan_filters(host, settings), context);
+}
+
+KnownMesh made(const DatasetMesh& item, PluginHost& host, Context& context) {
   SampleRequest request;
   request.kind = item.kind;
   request.parameters = item.parameters;
   request.faces = item.faces;
-  request.noise_rel = item.noise.value_or(0);
   request.seed = item.seed;
-  Sample sample = make_sample(request, context);
+  if (!item.scan) request.noise_rel = item.noise.value_or(0);
+  Sample sample = item.scan ? scanned(request, item, host, context) : make_sample(request, context);
   Truth truth = truth_of(sample);
   return {repaired_mesh(std::move(sample.mesh), item.name, &context).mesh, std::move(truth)};
 }
 
 }  // namespace
 
-KnownMesh load(const DatasetMesh& item, PluginHost&, Context& context) {
-  if (item.file.empty()) return made(item, context);
+KnownMesh load(const DatasetMesh& item, PluginHost& host, Context& context) {
+  if (item.file.empty()) return made(item, host, context);
   KnownMesh known{read_repaired_mesh(item.file, &context).mesh, {}};
   if (!item.truth.empty()) known.truth = read_truth(item.truth);
   return known;

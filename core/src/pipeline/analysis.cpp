@@ -96,11 +96,13 @@ ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeat
   posed.nodes = posed.outcome.nodes;
   posed.lower_bound = posed.outcome.lower_bound;
   posed.first_cost = posed.outcome.labelings.front().cost;
-  posed.log_evidence = posed.outcome.log_evidence;
   posed.least_cost = forbidden;
   for (const Labeling& labeling : posed.outcome.labelings) posed.least_cost = std::min(posed.least_cost, labeling.cost);
-  const auto orbits = interchangeable_features(
+  const auto names = renamings(
       {model, posed.features, posed.relationships, solver.stations.relation_ordered, model.classes.empty()});
+  // What differs in names that mean the same is one explanation, not several.
+  posed.log_evidence = posed.outcome.log_evidence - std::log(static_cast<double>(names.size()));
+  const auto orbits = orbits_of(names);
   const auto kept = one_side(posed, orbits, features);
   bool changed = false;
   for (Index v = 0; v < kept.size(); ++v) changed = changed || kept[v].size() < posed.problem.variables[v].domain();

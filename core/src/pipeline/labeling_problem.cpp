@@ -71,7 +71,7 @@ struct BoundRelation {
     operands.clear();
     for (const ConstructedFeature* feature : features)
       operands.push_back({&feature->shape, feature->points, feature->box});
-    RelationResult result = tester->test({operands, mesh.box, mesh.mean_edge}, Options(arguments), context);
+    RelationResult result = tester->test({operands, mesh.box, mesh.mean_edge, &mesh}, Options(arguments), context);
     if (tolerance) result.tolerance = *tolerance;
     check(result);
     return result;

@@ -178,8 +178,8 @@ void check_manifest(const PluginManifest& manifest) {
                      std::to_string(manifest.min_arity) + "; 0 means no upper bound");
   if (manifest.kind == PluginKind::shapes && manifest.min_arity < 1)
     throw UsageError("arity: a shape needs a minimum of 1 working set or more");
-  if (manifest.kind == PluginKind::relations && manifest.min_arity < 2)
-    throw UsageError("arity: a relation needs a minimum of 2 features or more");
+  if (manifest.kind == PluginKind::relations && manifest.min_arity < 1)
+    throw UsageError("arity: a relation needs a minimum of 1 feature or more");
   if (manifest.kind == PluginKind::relations && manifest.unit != "deg" && manifest.unit != "length")
     throw UsageError("unit '" + manifest.unit + "': the unit of a relation's residual is \"deg\" or \"length\"");
   if (manifest.kind == PluginKind::worksets && manifest.provides.empty())

@@ -90,9 +90,9 @@ std::vector<std::vector<Index>> renamings(const Question& question) {
   return Renamings(question).found;
 }
 
-std::vector<std::vector<Index>> interchangeable_features(const Question& question) {
-  std::vector<std::vector<Index>> orbits(question.features.size());
-  for (const std::vector<Index>& renamed : renamings(question))
+std::vector<std::vector<Index>> orbits_of(const std::vector<std::vector<Index>>& renamings) {
+  std::vector<std::vector<Index>> orbits(renamings.front().size());
+  for (const std::vector<Index>& renamed : renamings)
     for (Index f = 0; f < renamed.size(); ++f) orbits[f].push_back(renamed[f]);
   for (std::vector<Index>& orbit : orbits) {
     std::sort(orbit.begin(), orbit.end());

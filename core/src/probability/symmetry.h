@@ -23,6 +23,6 @@ std::vector<std::vector<Index>> renamings(const Question& question);
 
 /// Which features cannot be told apart: for each the positions (its own included, ascending) that some renaming maps it
 /// to.
-std::vector<std::vector<Index>> interchangeable_features(const Question& question);
+std::vector<std::vector<Index>> orbits_of(const std::vector<std::vector<Index>>& renamings);
 
 }  // namespace toposcope

@@ -102,7 +102,7 @@ void describe(const Circle& circle, const FitInput& input, double reach, FittedS
   const auto list = [](const Vec3& x) { return std::vector<double>{x.x(), x.y(), x.z()}; };
   shape.parameters = {
       {"center", 3, list(circle.center)}, {"normal", 3, list(circle.normal)}, {"radius", 1, {circle.radius}}};
-  shape.measures = {{"radius", circle.radius, std::sqrt(covariance(5, 5))}};
+  shape.measures = {{"radius", circle.radius, std::sqrt(covariance(5, 5))}, {"coverage", shape.coverage, 0}};
   shape.orientation = Orientation::plane_like;
   shape.direction = circle.normal;
   shape.direction_sd = std::sqrt((covariance(3, 3) + covariance(4, 4)) / 2) / circle.radius;
@@ -162,7 +162,8 @@ constexpr OptionSpec options[] = {
      "robust: outliers do not count; powell: least squares in the points' plane, as in the dissertation"},
     {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", "points within two scales of the circle belong to it"},
 };
-constexpr ProvidedName measures[] = {{"radius", 1, "radius of the circle"}};
+constexpr ProvidedName measures[] = {{"radius", 1, "radius of the circle"},
+                                     {"coverage", 0, "part of the turn that has points"}};
 
 }  // namespace
 }  // namespace toposcope::circle
