@@ -72,6 +72,8 @@ struct SampleOptions : CommonOptions {
   std::map<std::string, std::string> parameters;
   fs::path out;
   bool list = false;
+  std::string preset;
+  bool random = false;
 };
 
 /// Each returns the exit code; errors leave as exceptions (base/errors.h).

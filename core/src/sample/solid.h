@@ -16,10 +16,11 @@ namespace toposcope {
 struct Solid {
   Implicit surface;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< contain the solid
-  double thinnest = 0;             ///< least thickness of material or gap: no cell of the grid may reach across it
-  std::string thinnest_parameter;  ///< the parameter that sets it
-  double level = 0;  ///< of the solid where material is thinner than gaps: distance outside at which it is meshed
+  double thinnest = 0;                  ///< least thickness of material or gap: no cell of the grid may reach across it
+  std::string thinnest_parameter;       ///< the parameter that sets it
+  double gap = 0;                       ///< least width of the gaps between parts; not more than it is
   std::vector<SampleFeature> features;  ///< without `vertices`
+  bool typical = true;                  ///< of the class that the kind's model describes; `--random` draws no others
   std::vector<std::string> part_names;
   std::function<std::size_t(const Vec3&)> part_of;  ///< part of a point on the surface
 };
@@ -58,6 +59,8 @@ OptionRow length_parameter(const char* name, const char* default_value, const ch
 OptionRow angle_parameter(const char* name, const char* default_value, const char* meaning);
 /// A row for a part that may be left out: 0 or 1.
 OptionRow switch_parameter(const char* name, const char* default_value, const char* meaning);
+/// A parameter's text as the number that stands for it: 0 or 1, the place of a choice from 0, or itself.
+double parameter_number(const OptionRow& row, const std::string& text);
 double parameter(const ParameterValues& values, std::string_view name);
 
 /// Truth of a circle: its parameters and `count` points on it.
