@@ -91,6 +91,8 @@ struct SampleOptions : CommonOptions {
   std::uint32_t viewpoints = 20, seen_from = 0;
   double scan_noise = 0.0005;
   int smoothing = 10;
+  std::string preset;
+  bool random = false;
 };
 
 /// Each returns the exit code; errors leave as exceptions (base/errors.h).

@@ -197,7 +197,9 @@ int dispatch(int argc, char** argv) {
       ->capture_default_str();
   std::vector<std::string> assignments;
   sample_app->add_option("--set", assignments, "one parameter: name=value")->type_name("P=V")->allow_extra_args(false);
-  sample_app->add_option("--seed", sample_options.seed, "seed of noise and pose")->capture_default_str();
+  sample_app->add_option("--preset", sample_options.preset, "named parameters to start from; see --list");
+  sample_app->add_flag("--random", sample_options.random, "draw the parameters that --set does not give");
+  sample_app->add_option("--seed", sample_options.seed, "seed of noise, pose and --random")->capture_default_str();
   sample_app->add_option("--threads", sample_options.threads, "threads; 0: one per processor")
       ->check(CLI::Range(0U, 1024U))
       ->capture_default_str();

@@ -49,6 +49,8 @@ KnownMesh made(const DatasetMesh& item, PluginHost& host, Context& context) {
   SampleRequest request;
   request.kind = item.kind;
   request.parameters = item.parameters;
+  request.preset = item.preset;
+  request.random = item.random;
   request.faces = item.faces;
   request.seed = item.seed;
   if (!item.scan) request.noise_rel = item.noise.value_or(0);

@@ -219,9 +219,7 @@ Solid make_airplane(const ParameterValues& parameters) {
     solid.part_names.push_back("engine");
   }
   solid.low.y() = -solid.high.y();
-  // Trailing edges are thin, while gaps are as wide as an engine's radius: half way between the two.
-  const double gap = a.engines > 0 ? 0.7 * a.engine_radius : 4 * solid.thinnest;
-  solid.level = std::clamp((gap - solid.thinnest) / 4, 0.0, 0.75 * solid.thinnest);
+  solid.gap = a.engines > 0 ? 0.7 * a.engine_radius : a.radius;
   solid.surface = mirror_y(half);
   solid.part_of = [parts, engines](const Vec3& point) {
     const Vec3 p(point.x(), std::abs(point.y()), point.z());

@@ -25,6 +25,76 @@ void check_surface(const Airplane& a, const Planform& p, const std::string& name
           "give a larger one");
 }
 
+std::vector<SamplePreset> airplane_presets() {
+  return {{"piper", "the default: one engine in the nose, low wings that taper little", {}},
+          {"cessna",
+           "high straight wings with an engine in each",
+           {{"fuselage_radius", 5.6},
+            {"nose_length", 16},
+            {"tail_length", 48},
+            {"wing_position", 30},
+            {"wing_height", 3.8},
+            {"wing_span", 112},
+            {"wing_root_chord", 18},
+            {"wing_tip_chord", 15},
+            {"wing_sweep", 2},
+            {"wing_dihedral", 2},
+            {"engines", 2},
+            {"engine_drop", 0.8},
+            {"engine_length", 14},
+            {"stabilizer_sweep", 6},
+            {"stabilizer_tip_chord", 10},
+            {"fin_sweep", 38},
+            {"tip_rounding", 0.2}}},
+          {"beechcraft",
+           "a jet: swept low wings, a T-tail, engines beside the fuselage",
+           {{"fuselage_radius", 5.4}, {"nose_length", 20},     {"tail_length", 38},     {"wing_position", 38},
+            {"wing_span", 96},        {"wing_root_chord", 20}, {"wing_tip_chord", 9},   {"wing_sweep", 26},
+            {"wing_dihedral", 5},     {"t_tail", 1},           {"fin_height", 23},      {"fin_position", 79},
+            {"fin_sweep", 42},        {"fin_tip_chord", 11},   {"stabilizer_span", 36}, {"stabilizer_root_chord", 12},
+            {"stabilizer_sweep", 26}, {"engines", 2},          {"engines_at_rear", 1},  {"engine_drop", 5.4},
+            {"tip_rounding", 0.6}}}};
+}
+
+std::vector<RandomRange> airplane_ranges() {
+  return {{"length", 80, 125},
+          {"fuselage_radius", 0.045, 0.075, "length"},
+          {"nose_length", 1, 3.2, "fuselage_radius"},
+          {"tail_length", 0.3, 0.5, "length"},
+          {"tail_radius", 0.2, 0.5, "fuselage_radius"},
+          {"wing_position", 0.25, 0.42, "length"},
+          {"wing_height", -0.7, 0.7, "fuselage_radius"},
+          {"wing_span", 0.8, 1.2, "length"},
+          {"wing_root_chord", 0.15, 0.24, "length"},
+          {"wing_tip_chord", 0.45, 0.95, "wing_root_chord"},
+          {"wing_sweep", 0, 36},
+          {"wing_dihedral", -2, 7},
+          {"wing_thickness", 0.12, 0.18},
+          {"t_tail", 0, 0.3},
+          {"stabilizer_position", 0.78, 0.86, "length"},
+          {"stabilizer_height", 0, 0.6, "tail_radius"},
+          {"stabilizer_span", 0.3, 0.45, "length"},
+          {"stabilizer_root_chord", 0.11, 0.14, "length"},
+          {"stabilizer_tip_chord", 0.55, 0.9, "stabilizer_root_chord"},
+          {"stabilizer_sweep", 4, 34},
+          {"stabilizer_dihedral", -4, 6},
+          {"fin_position", 0.77, 0.84, "length"},
+          {"fin_height", 0.17, 0.26, "length"},
+          {"fin_root_chord", 0.12, 0.16, "length"},
+          {"fin_tip_chord", 0.5, 0.85, "fin_root_chord"},
+          {"fin_sweep", 12, 44},
+          {"tail_thickness", 0.13, 0.18},
+          {"trailing_edge", 0.4, 0.8},
+          {"tip_rounding", 0.1, 0.9},
+          {"engines", 0, 4, "", 2},
+          {"engines_at_rear", 0, 0.25},
+          {"engine_radius", 0.018, 0.028, "length"},
+          {"engine_length", 4, 6, "engine_radius"},
+          {"engine_station", 0.28, 0.42},
+          {"engine_drop", 0, 4, "engine_radius"},
+          {"fillet", 0.2, 0.45, "fuselage_radius"}};
+}
+
 }  // namespace
 
 SampleKind airplane_kind() {
@@ -71,7 +141,9 @@ SampleKind airplane_kind() {
        length_parameter(
            "engine_drop", "6.5", "0",
            "of the engine's axis below the wing, or beyond the fuselage's side; over engine_radius with a pylon"),
-       length_parameter("fillet", "2", "0", "radius of the fillets where wings and stabilisers meet the fuselage")}};
+       length_parameter("fillet", "2", "0", "radius of the fillets where wings and stabilisers meet the fuselage")},
+      airplane_presets(),
+      airplane_ranges()};
 }
 
 void check_airplane(const Airplane& a) {

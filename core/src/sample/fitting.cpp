@@ -30,7 +30,7 @@ double clear_length(const Fitting& t, const Pipe& pipe) {
   for (const Pipe& other : all_pipes(t))
     if (other.rim != pipe.rim)
       room = std::max(room, (t.hub() + t.fillet) * std::max(0.0, slenderness(pipe.direction, other.direction)));
-  if (t.bend) room = *t.bend + t.hub() - t.outer();
+  if (t.bend) room = *t.bend + 1.3 * (t.hub() - t.outer());  // the socket's cone and its rounding
   return room + t.hub_length() + (t.has_socket ? 0 : 2 * t.edge);
 }
 
@@ -38,8 +38,8 @@ void check(const Fitting& t) {
   const std::string& kind = t.kind;
   double longest = 0;
   for (const Pipe& pipe : all_pipes(t)) longest = std::max(longest, pipe.length / pipe.per_length);
-  require(t.wall >= 0.02 * longest && t.wall >= 0.05 * t.bore, kind, "wall", t.wall,
-          "the wall must be at least 2 % of the fitting's length and 5 % of its bore radius", "give a thicker wall");
+  require(t.wall >= 0.015 * longest && t.wall >= 0.05 * t.bore, kind, "wall", t.wall,
+          "the wall must be at least 1.5 % of the fitting's length and 5 % of its bore radius", "give a thicker wall");
   require(t.wall <= 2 * t.bore, kind, "wall", t.wall, "the wall may be at most twice bore_radius",
           "give a thinner wall or a wider bore");
   require(t.edge >= 0.1 * t.wall && t.edge <= 0.45 * t.wall, kind, "edge_rounding", t.edge,
@@ -146,7 +146,8 @@ std::function<std::size_t(const Vec3&)> nearest_run(const Fitting& t, const std:
 
 }  // namespace
 
-std::vector<OptionRow> fitting_parameters(const std::vector<OptionRow>& lengths) {
+SampleKind fitting_kind(const std::string& name, const std::string& summary, const std::vector<OptionRow>& lengths,
+                        const std::map<std::string, double>& socketed, const std::vector<RandomRange>& ranges) {
   std::vector<OptionRow> rows = {length_parameter("bore_radius", "16", "0", "inner radius of the pipes"),
                                  length_parameter("wall", "4", "0", "thickness of the wall")};
   rows.insert(rows.end(), lengths.begin(), lengths.end());
@@ -155,7 +156,21 @@ std::vector<OptionRow> fitting_parameters(const std::vector<OptionRow>& lengths)
   rows.push_back(length_parameter("socket_depth", "16", "0", "depth of a socket"));
   rows.push_back(length_parameter("fillet", "6", "0", "radius of the fillet where pipes meet"));
   rows.push_back(length_parameter("edge_rounding", "1", "0", "radius that rounds the edges of the openings"));
-  return rows;
+  std::map<std::string, double> with_sockets = socketed;
+  with_sockets["socket"] = 1;
+  std::vector<RandomRange> all = {{"bore_radius", 5, 50},
+                                  {"wall", 0.18, 0.4, "bore_radius"},
+                                  {"socket", 0, 0.4},
+                                  {"socket_radius", 1.1, 1.25, "bore_radius"},
+                                  {"socket_depth", 0.5, 1.1, "bore_radius"},
+                                  {"fillet", 0.1, 0.4, "bore_radius"},
+                                  {"edge_rounding", 0.12, 0.4, "wall"}};
+  all.insert(all.end(), ranges.begin(), ranges.end());
+  return {name,
+          summary,
+          rows,
+          {{"plain", "the default: without sockets", {}}, {"socket", "with sockets", with_sockets}},
+          all};
 }
 
 Fitting read_fitting(const std::string& kind, const ParameterValues& v) {
@@ -192,10 +207,18 @@ Solid make_fitting(const Fitting& t) {
     solid.high = solid.high.cwiseMax(end + aside);
     solid.features.push_back(rim(t, pipe));
   }
+  // In the classes of the model no two rims lie farther apart than the box is long, opposite ones aside.
+  const double longest = (solid.high - solid.low).maxCoeff();
+  for (const Pipe& a : all_pipes(t))
+    for (const Pipe& b : all_pipes(t))
+      if (a.direction.dot(b.direction) > -0.99 &&
+          (a.length * a.direction - b.length * b.direction).norm() > 0.96 * longest)
+        solid.typical = false;
   for (std::size_t i = solid.features.size(); i < 4; ++i)
     solid.features.push_back({"rim" + std::to_string(i + 1), "circle", {}, {}, {}, {}});
   solid.thinnest = t.wall;
   solid.thinnest_parameter = "wall";
+  solid.gap = t.bore;
   solid.part_of = nearest_run(t, skins);
   return solid;
 }

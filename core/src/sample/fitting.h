@@ -42,8 +42,10 @@ struct Fitting {
   double hub_length() const { return has_socket ? depth + wall : 0; }
 };
 
-/// Rows of bore and wall, then the kind's own, then those of sockets and roundings.
-std::vector<OptionRow> fitting_parameters(const std::vector<OptionRow>& lengths);
+/// A kind: bore and wall, then the kind's own lengths, then sockets and roundings.
+/// \param socketed  lengths of the preset with sockets
+SampleKind fitting_kind(const std::string& name, const std::string& summary, const std::vector<OptionRow>& lengths,
+                        const std::map<std::string, double>& socketed, const std::vector<RandomRange>& ranges);
 
 /// A fitting without its pipes.
 Fitting read_fitting(const std::string& kind, const ParameterValues& parameters);

@@ -22,10 +22,12 @@ Run straight_run(const std::string& part, const std::string& rim, const std::str
 }  // namespace
 
 SampleKind tee_kind() {
-  return {"tee", "a pipe tee: a run along x and a branch along +z from its middle",
-          fitting_parameters(
-              {length_parameter("run_length", "120", "0", "length of the run, end to end"),
-               length_parameter("branch_length", "60", "0", "distance from the run's axis to the branch's end")})};
+  return fitting_kind(
+      "tee", "a pipe tee: a run along x and a branch along +z from its middle",
+      {length_parameter("run_length", "120", "0", "length of the run, end to end"),
+       length_parameter("branch_length", "60", "0", "distance from the run's axis to the branch's end")},
+      {{"run_length", 140}, {"branch_length", 70}},
+      {{"run_length", 4.2, 9, "bore_radius"}, {"branch_length", 2.1, 4.8, "bore_radius"}});
 }
 
 Solid make_tee(const ParameterValues& parameters) {
@@ -36,9 +38,11 @@ Solid make_tee(const ParameterValues& parameters) {
 }
 
 SampleKind cross_kind() {
-  return {"cross", "a pipe cross: a run along x and a run along z through its middle",
-          fitting_parameters({length_parameter("run_length", "120", "0", "length of the run along x, end to end"),
-                              length_parameter("cross_length", "120", "0", "length of the run along z, end to end")})};
+  return fitting_kind("cross", "a pipe cross: a run along x and a run along z through its middle",
+                      {length_parameter("run_length", "120", "0", "length of the run along x, end to end"),
+                       length_parameter("cross_length", "120", "0", "length of the run along z, end to end")},
+                      {{"run_length", 140}, {"cross_length", 140}},
+                      {{"run_length", 4.2, 9, "bore_radius"}, {"cross_length", 4.2, 9, "bore_radius"}});
 }
 
 Solid make_cross(const ParameterValues& parameters) {
@@ -49,12 +53,17 @@ Solid make_cross(const ParameterValues& parameters) {
 }
 
 SampleKind wye_kind() {
-  return {"wye", "a pipe wye: a run along x and a branch that leans towards +x from +z",
-          fitting_parameters(
-              {length_parameter("run_length", "150", "0", "length of the run, end to end"),
-               length_parameter("back_length", "45", "0", "distance from where the axes meet back to the run's end"),
-               length_parameter("branch_length", "100", "0", "distance from where the axes meet to the branch's end"),
-               angle_parameter("branch_angle", "45", "between the branch and the run's +x half")})};
+  return fitting_kind(
+      "wye", "a pipe wye: a run along x and a branch that leans towards +x from +z",
+      {length_parameter("run_length", "150", "0", "length of the run, end to end"),
+       length_parameter("back_length", "60", "0", "distance from where the axes meet back to the run's end"),
+       length_parameter("branch_length", "90", "0", "distance from where the axes meet to the branch's end"),
+       angle_parameter("branch_angle", "45", "between the branch and the run's +x half")},
+      {{"run_length", 190}, {"back_length", 80}, {"branch_length", 110}},
+      {{"run_length", 7, 12, "bore_radius"},
+       {"back_length", 0.38, 0.5, "run_length"},
+       {"branch_length", 0.46, 0.62, "run_length"},
+       {"branch_angle", 40, 52}});
 }
 
 Solid make_wye(const ParameterValues& parameters) {
@@ -68,16 +77,26 @@ Solid make_wye(const ParameterValues& parameters) {
       {"run", {{"rim1", right, run - back, "run_length"}, {"rim2", left, back, "back_length"}}},
       {"branch",
        {{"rim3", Vec3(std::cos(turn), 0, std::sin(turn)), parameter(parameters, "branch_length"), "branch_length"}}}};
-  return make_fitting(t);
+  Solid solid = make_fitting(t);
+  // The class's third rim lies near the first.
+  const Pipe &first = t.runs[0].pipes[0], &third = t.runs[1].pipes[0];
+  if ((first.length * first.direction - third.length * third.direction).norm() >
+      0.48 * (solid.high - solid.low).maxCoeff())
+    solid.typical = false;
+  return solid;
 }
 
 SampleKind elbow_kind() {
-  return {"elbow", "a pipe elbow of 90 degrees: a leg along +x and a leg along +z",
-          fitting_parameters(
-              {length_parameter("leg1_length", "60", "0", "distance from where the axes meet to the end at +x"),
-               length_parameter("leg2_length", "60", "0", "distance from where the axes meet to the end at +z"),
-               switch_parameter("mitred", "false", "true: the legs meet in a corner instead of a bend"),
-               length_parameter("bend_radius", "32", "0", "radius of the bend's centre line")})};
+  return fitting_kind("elbow", "a pipe elbow of 90 degrees: a leg along +x and a leg along +z",
+                      {length_parameter("leg1_length", "42", "0", "distance from where the axes meet to the end at +x"),
+                       length_parameter("leg2_length", "42", "0", "distance from where the axes meet to the end at +z"),
+                       switch_parameter("mitred", "false", "true: the legs meet in a corner instead of a bend"),
+                       length_parameter("bend_radius", "30", "0", "radius of the bend's centre line")},
+                      {{"leg1_length", 47}, {"leg2_length", 47}, {"socket_depth", 14}, {"bend_radius", 24.5}},
+                      {{"mitred", 0, 0.4},
+                       {"bend_radius", 1.5, 2.2, "bore_radius"},
+                       {"leg1_length", 1.8, 3.8, "bore_radius"},
+                       {"leg2_length", 1.8, 3.8, "bore_radius"}});
 }
 
 Solid make_elbow(const ParameterValues& parameters) {
@@ -97,11 +116,15 @@ Solid make_elbow(const ParameterValues& parameters) {
 }
 
 SampleKind tricorner_kind() {
-  return {"tricorner", "a pipe corner: three legs along +x, +z and -y, each at right angles to the others",
-          fitting_parameters(
-              {length_parameter("leg1_length", "60", "0", "distance from where the axes meet to the end at +x"),
-               length_parameter("leg2_length", "60", "0", "distance from where the axes meet to the end at +z"),
-               length_parameter("leg3_length", "60", "0", "distance from where the axes meet to the end at -y")})};
+  return fitting_kind(
+      "tricorner", "a pipe corner: three legs along +x, +z and -y, each at right angles to the others",
+      {length_parameter("leg1_length", "42", "0", "distance from where the axes meet to the end at +x"),
+       length_parameter("leg2_length", "42", "0", "distance from where the axes meet to the end at +z"),
+       length_parameter("leg3_length", "42", "0", "distance from where the axes meet to the end at -y")},
+      {{"leg1_length", 47}, {"leg2_length", 47}, {"leg3_length", 47}, {"socket_depth", 14}},
+      {{"leg1_length", 1.9, 3.6, "bore_radius"},
+       {"leg2_length", 1.9, 3.6, "bore_radius"},
+       {"leg3_length", 1.9, 3.6, "bore_radius"}});
 }
 
 Solid make_tricorner(const ParameterValues& parameters) {

@@ -13,6 +13,8 @@
 
 #include "base/errors.h"
 #include "base/nearest_name.h"
+#include "plugin/option_check.h"
+#include "sample/draw.h"
 #include "sample/isosurface.h"
 #include "sample/remesh.h"
 #include "sample/solid.h"
@@ -42,16 +44,20 @@ void check_request(const SampleRequest& request) {
   if (!(request.noise_rel >= 0 && request.noise_rel <= 0.1))
     throw UsageError(fmt::format("{}: noise is {} box diagonals: it must lie between 0 and 0.1, such as 0.001",
                                  request.kind, request.noise_rel));
+  if (request.random && !request.preset.empty())
+    throw UsageError(fmt::format("{}: preset '{}' and random parameters exclude each other: leave one out",
+                                 request.kind, request.preset));
 }
 
 /// Meshes the solid on a grid that resolves its thinnest part and gives more faces than asked for, and thins that.
 TriangleSoup mesh_solid(const Solid& solid, const SampleRequest& request, Context& context) {
   const double faces = request.faces;
-  double spacing = 0.55 * (solid.thinnest + 2 * solid.level);  // below 1 / sqrt(3): no cell meets both sides of a wall
+  const double level = net_level(solid);
+  double spacing = 0.55 * (solid.thinnest + 2 * level);  // below 1 / sqrt(3): no cell meets both sides of a wall
   TriangleSoup fine;
   for (int attempt = 0; attempt < 8; ++attempt) {
     try {
-      fine = extract_isosurface(solid.surface, solid.low, solid.high, spacing, solid.level, context);
+      fine = extract_isosurface(solid.surface, solid.low, solid.high, spacing, level, context);
     } catch (const std::length_error&) {
       throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
                                    solid.thinnest_parameter, solid.thinnest));
@@ -151,6 +157,13 @@ OptionRow switch_parameter(const char* name, const char* default_value, const ch
   return {name, OptionType::boolean, "", default_value, "", "", meaning};
 }
 
+double parameter_number(const OptionRow& row, const std::string& text) {
+  if (row.type == OptionType::boolean) return text == "true" ? 1 : 0;
+  const std::vector<std::string> choices = option_choices(row);
+  if (choices.empty()) return to_number(text);
+  return static_cast<double>(std::find(choices.begin(), choices.end(), text) - choices.begin());
+}
+
 double parameter(const ParameterValues& values, std::string_view name) {
   for (const auto& [key, value] : values)
     if (key == name) return value;
@@ -182,10 +195,12 @@ ParameterValues check_parameters(const SampleKind& kind, const std::map<std::str
   std::vector<std::string> names;
   for (const OptionRow& row : kind.parameters) {
     const auto it = given.find(row.name);
-    const double value = it == given.end() ? (row.type == OptionType::boolean ? double(row.default_value == "true")
-                                                                              : to_number(row.default_value))
-                                           : it->second;
-    if (row.type == OptionType::boolean)
+    const std::vector<std::string> choices = option_choices(row);
+    const double value = it == given.end() ? parameter_number(row, row.default_value) : it->second;
+    if (!choices.empty())
+      require(value >= 0 && value < static_cast<double>(choices.size()) && value == std::floor(value), kind.name,
+              row.name, value, "it must be the number of a choice, from 0", "the default is " + row.default_value);
+    else if (row.type == OptionType::boolean)
       require(value == 0 || value == 1, kind.name, row.name, value, "it must be true or false",
               "the default is " + row.default_value);
     else if (row.minimum.empty())
@@ -214,19 +229,32 @@ std::vector<SampleKind> sample_kinds() {
   return kinds;
 }
 
+double sample_parameter(const SampleKind& kind, const std::string& name, const std::string& text) {
+  const OptionValue value = check_option(kind.parameters, name, text, "sample '" + kind.name + "'");
+  for (const OptionRow& row : kind.parameters)
+    if (row.name == name && row.type == OptionType::text) return parameter_number(row, text);
+  return value.number;
+}
+
 Solid make_solid(const std::string& kind, const ParameterValues& parameters) {
   for (const Maker& maker : makers)
     if (maker.kind().name == kind) return maker.make(parameters);
   throw std::logic_error("sample kind '" + kind + "' is listed but cannot be made");
 }
 
-Sample make_sample(const SampleRequest& request, Context& context) {
-  const std::vector<SampleKind> kinds = sample_kinds();
-  const SampleKind kind = find_kind(kinds, request.kind);
+ParameterValues requested_parameters(const SampleRequest& request) {
+  const SampleKind kind = find_kind(sample_kinds(), request.kind);
   check_request(request);
+  std::map<std::string, double> given = request.parameters;
+  if (!request.preset.empty()) given = preset_parameters(kind, request.preset, given);
+  if (request.random) given = draw_parameters(kind, given, request.seed);
+  return check_parameters(kind, given);
+}
+
+Sample make_sample(const SampleRequest& request, Context& context) {
   Sample sample;
   sample.kind = request.kind;
-  sample.parameters = check_parameters(kind, request.parameters);
+  sample.parameters = requested_parameters(request);
   sample.noise_rel = request.noise_rel;
   sample.seed = request.seed;
 

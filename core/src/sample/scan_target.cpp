@@ -57,11 +57,11 @@ Sample make_scan_target(const SampleRequest& request, Context& context) {
   Sample sample;
   sample.kind = request.kind;
   sample.seed = request.seed;
-  sample.parameters = check_parameters(find_kind(sample_kinds(), request.kind), request.parameters);
+  sample.parameters = requested_parameters(request);
   const Solid solid = make_solid(request.kind, sample.parameters);
-  const double spacing = 0.55 * (solid.thinnest + 2 * solid.level);  // as make_sample
+  const double level = net_level(solid), spacing = 0.55 * (solid.thinnest + 2 * level);  // as make_sample
   try {
-    sample.mesh = extract_isosurface(solid.surface, solid.low, solid.high, spacing, solid.level, context);
+    sample.mesh = extract_isosurface(solid.surface, solid.low, solid.high, spacing, level, context);
   } catch (const std::length_error&) {
     throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
                                  solid.thinnest_parameter, solid.thinnest));

@@ -3,6 +3,7 @@
 
 // What a kind of parametric object gives to make_sample: its exact surface and its truth.
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <string>
@@ -16,13 +17,20 @@ namespace toposcope {
 struct Solid {
   Implicit surface;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< contain the solid
-  double thinnest = 0;             ///< least thickness of material or gap: no cell of the grid may reach across it
-  std::string thinnest_parameter;  ///< the parameter that sets it
-  double level = 0;  ///< of the solid where material is thinner than gaps: distance outside at which it is meshed
+  double thinnest = 0;                  ///< least thickness of material or gap: no cell of the grid may reach across it
+  std::string thinnest_parameter;       ///< the parameter that sets it
+  double gap = 0;                       ///< least width of the gaps between parts; not more than it is
   std::vector<SampleFeature> features;  ///< without `vertices`
+  bool typical = true;                  ///< of the class that the kind's model describes; `--random` draws no others
   std::vector<std::string> part_names;
   std::function<std::size_t(const Vec3&)> part_of;  ///< part of a point on the surface
 };
+
+/// How far outside the surface its net is laid: thin material comes out whole on a coarser grid there, and gaps become
+/// narrower.
+inline double net_level(const Solid& solid) {
+  return std::clamp((solid.gap - solid.thinnest) / 4, 0.0, 0.75 * solid.thinnest);
+}
 
 /// Values of all parameters of a kind, in the order of its table.
 using ParameterValues = std::vector<std::pair<std::string, double>>;
@@ -32,6 +40,8 @@ SampleKind find_kind(const std::vector<SampleKind>& kinds, const std::string& na
 
 /// Fills in the defaults and checks names and ranges. \throw UsageError
 ParameterValues check_parameters(const SampleKind& kind, const std::map<std::string, double>& given);
+/// All parameters of what is asked for, from its preset, drawn at random or as given. \throw UsageError
+ParameterValues requested_parameters(const SampleRequest& request);
 
 /// Builds the exact solid of a kind. \throw UsageError  parameters that contradict each other
 Solid make_solid(const std::string& kind, const ParameterValues& parameters);
@@ -64,6 +74,8 @@ OptionRow length_parameter(const char* name, const char* default_value, const ch
 OptionRow angle_parameter(const char* name, const char* default_value, const char* meaning);
 /// A row for a part that may be left out: 0 or 1.
 OptionRow switch_parameter(const char* name, const char* default_value, const char* meaning);
+/// A parameter's text as the number that stands for it: 0 or 1, the place of a choice from 0, or itself.
+double parameter_number(const OptionRow& row, const std::string& text);
 double parameter(const ParameterValues& values, std::string_view name);
 
 /// Truth of a circle: its parameters and `count` points on it.

@@ -175,7 +175,7 @@ TEST_F(ReadModel, SchemaErrorsNamePlaceValueAndRemedy) {
       {"detectability: 0.75", "detectability: often", "25:20", "is 'often'"},
       {"detectability: 0.75", "detectability: .nan", "25:20", "is '.nan'"},
       {"detectability: 0.75", "detectability:", "25:5", "is empty"},
-      {"[rim, edge]", "[rim]", "29:18", "'relationships.r1.features' has 1 entries; needed: a list of two or more"},
+      {"[rim, edge]", "[]", "29:18", "'relationships.r1.features' has 0 entries; needed: a list of features"},
       {", type: concentric", "", "29:7", "'relationships.r1' lacks 'type'"},
   };
   for (const Change& change : changes) {

@@ -64,12 +64,12 @@ TEST_F(BadPlugins, TheGoodOneIsGood) {
 TEST_F(BadPlugins, WrongMajor) {
   folder.add("wrong-major");
   EXPECT_THAT(error_beside_good("wrong-major"),
-              AllOf(HasSubstr("built for plugin ABI 3."), HasSubstr("this program has ABI 2.0"), HasSubstr("build")));
+              AllOf(HasSubstr("built for plugin ABI 3."), HasSubstr("this program has ABI 2.1"), HasSubstr("build")));
 }
 
 TEST_F(BadPlugins, NewerMinor) {
   folder.add("newer-minor");
-  EXPECT_THAT(error_beside_good("newer-minor"), AllOf(HasSubstr("newer plugin ABI 2.1"), HasSubstr("has ABI 2.0")));
+  EXPECT_THAT(error_beside_good("newer-minor"), AllOf(HasSubstr("newer plugin ABI 2.2"), HasSubstr("has ABI 2.1")));
 }
 
 TEST_F(BadPlugins, WrongFingerprint) {
