@@ -4,116 +4,229 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 namespace toposcope {
 
 namespace {
 
-/// A view's camera in single precision, for points about the origin.
-struct Projector {
-  float focal, center_x, center_y, last_x, last_y;
-  std::uint32_t width;
-  const DepthCell* cells;
-
-  explicit Projector(const DepthView& view)
-      : focal(static_cast<float>(view.focal)),
-        center_x(static_cast<float>(view.center_x)),
-        center_y(static_cast<float>(view.center_y)),
-        last_x(static_cast<float>(view.width) - 0.5F),
-        last_y(static_cast<float>(view.height) - 0.5F),
-        width(view.width),
-        cells(view.cells.data()) {}
-
-  struct Look {
-    float distance;  ///< to the plane seen there, positive in front of it
-    float weight;
-  };
-  /// \param p  in the camera's frame
-  Look operator()(const Eigen::Vector3f& p) const {
-    const float scale = focal / p.z();
-    const float x = std::min(std::max(p.x() * scale + center_x, 0.0F), last_x);
-    const float y = std::min(std::max(p.y() * scale + center_y, 0.0F), last_y);
-    const auto column = static_cast<std::int32_t>(x), row = static_cast<std::int32_t>(y);
-    const DepthCell& cell = cells[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)];
-    const float fx = x - static_cast<float>(column), fy = y - static_cast<float>(row);
-    const float w = cell.w + fx * cell.wx + fy * (cell.wy + fx * cell.wxy);
-    return {(1 - p.z() * w) * cell.plane, cell.weight};
+/// Points about the origin, coordinate by coordinate.
+struct PointBatch {
+  std::vector<float> x, y, z;
+  explicit PointBatch(std::size_t count) : x(count), y(count), z(count) {}
+  std::size_t size() const { return x.size(); }
+  void set(std::size_t i, const Vec3& p) {
+    x[i] = static_cast<float>(p.x());
+    y[i] = static_cast<float>(p.y());
+    z[i] = static_cast<float>(p.z());
   }
 };
 
-/// What the views say of a row of nodes.
-class RowFusion {
+/// Least and greatest values of the cells in tiles of 4 by 4.
+struct Tile {
+  float nearest = 0, farthest = 1e30F;  ///< inverse depths
+  float plane = 1e30F;                  ///< least
+};
+
+/// A view's camera in single precision.
+class Projector {
  public:
-  RowFusion(std::span<const DepthView> views, const DepthFusion& fusion, std::size_t length)
+  /// Where points come to lie in the image.
+  struct Scratch {
+    std::vector<float> depth, column, row;
+    explicit Scratch(std::size_t count) : depth(count), column(count), row(count) {}
+  };
+
+  explicit Projector(const DepthView& view)
+      : axes_(view.axes.cast<float>()),
+        offset_((-view.axes * view.viewpoint).cast<float>()),
+        focal_(static_cast<float>(view.focal)),
+        center_x_(static_cast<float>(view.center_x)),
+        center_y_(static_cast<float>(view.center_y)),
+        last_x_(static_cast<float>(view.width) - 0.5F),
+        last_y_(static_cast<float>(view.height) - 0.5F),
+        width_(view.width),
+        cells_(view.cells.data()),
+        tiles_wide_((view.width + 3) / 4) {
+    tiles_.resize(static_cast<std::size_t>(tiles_wide_) * ((view.height + 3) / 4));
+    for (std::uint32_t y = 0; y < view.height; ++y)
+      for (std::uint32_t x = 0; x < view.width; ++x) {
+        const DepthCell& cell = cells_[static_cast<std::size_t>(y) * width_ + x];
+        Tile& tile = tiles_[static_cast<std::size_t>(y / 4) * tiles_wide_ + x / 4];
+        const float beside = cell.w + cell.wx, below = cell.w + cell.wy, across = beside + cell.wy + cell.wxy;
+        tile.nearest = std::max(tile.nearest, std::max(std::max(cell.w, beside), std::max(below, across)));
+        tile.farthest = std::min(tile.farthest, std::min(std::min(cell.w, beside), std::min(below, across)));
+        tile.plane = std::min(tile.plane, cell.plane);
+      }
+  }
+
+  /// What the view says of a ball: that it saw through all of it, that all of it lies deep behind what it saw, or
+  /// neither.
+  enum class Verdict { free, hidden, unclear };
+  Verdict judge(const Eigen::Vector3f& center, float radius, float front, float behind) const {
+    const Eigen::Vector3f p = axes_ * center + offset_;
+    const float scale = focal_ / (p.z() - radius), reach = radius * scale * 1.15F + 1;  // 1.15: the ball seen askew
+    const float middle = focal_ / p.z(), x = p.x() * middle + center_x_, y = p.y() * middle + center_y_;
+    const auto tile = [](float pixel, float last) {
+      return static_cast<std::uint32_t>(std::min(std::max(pixel, 0.0F), last)) / 4;
+    };
+    const std::uint32_t left = tile(x - reach, last_x_), right = tile(x + reach, last_x_);
+    const std::uint32_t top = tile(y - reach, last_y_), bottom = tile(y + reach, last_y_);
+    Tile all;
+    for (std::uint32_t row = top; row <= bottom; ++row)
+      for (std::uint32_t column = left; column <= right; ++column) {
+        const Tile& t = tiles_[static_cast<std::size_t>(row) * tiles_wide_ + column];
+        all.nearest = std::max(all.nearest, t.nearest);
+        all.farthest = std::min(all.farthest, t.farthest);
+        all.plane = std::min(all.plane, t.plane);
+      }
+    if ((1 - (p.z() + radius) * all.nearest) * all.plane > front) return Verdict::free;
+    if (((p.z() - radius) * all.farthest - 1) * all.plane > behind) return Verdict::hidden;
+    return Verdict::unclear;
+  }
+
+  /// For each point the distance to the plane seen there, positive in front of it, and the measurement's weight.
+  void look(const PointBatch& points, Scratch& scratch, float* distance, float* weight) const {
+    const std::size_t count = points.size();
+    float *depths = scratch.depth.data(), *columns = scratch.column.data(), *rows = scratch.row.data();
+    for (std::size_t i = 0; i < count; ++i) {
+      const float x = points.x[i], y = points.y[i], z = points.z[i];
+      depths[i] = axes_(2, 0) * x + axes_(2, 1) * y + axes_(2, 2) * z + offset_.z();
+      const float scale = focal_ / depths[i];
+      const float column = (axes_(0, 0) * x + axes_(0, 1) * y + axes_(0, 2) * z + offset_.x()) * scale + center_x_;
+      const float row = (axes_(1, 0) * x + axes_(1, 1) * y + axes_(1, 2) * z + offset_.y()) * scale + center_y_;
+      columns[i] = std::min(std::max(column, 0.0F), last_x_);
+      rows[i] = std::min(std::max(row, 0.0F), last_y_);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto column = static_cast<std::int32_t>(columns[i]), row = static_cast<std::int32_t>(rows[i]);
+      const DepthCell& cell = cells_[static_cast<std::size_t>(row) * width_ + static_cast<std::size_t>(column)];
+      const float fx = columns[i] - static_cast<float>(column), fy = rows[i] - static_cast<float>(row);
+      const float w = cell.w + fx * cell.wx + fy * (cell.wy + fx * cell.wxy);
+      distance[i] = (1 - depths[i] * w) * cell.plane;
+      weight[i] = cell.weight;
+    }
+  }
+
+ private:
+  Eigen::Matrix3f axes_;
+  Eigen::Vector3f offset_;
+  float focal_, center_x_, center_y_, last_x_, last_y_;
+  std::uint32_t width_;
+  const DepthCell* cells_;
+  std::uint32_t tiles_wide_;
+  std::vector<Tile> tiles_;
+};
+
+struct Thresholds {
+  float front, behind, window, doubt, carved;
+  explicit Thresholds(const DepthFusion& fusion)
+      // Beside a node that lies inside, those outside are less than a cell's diagonal away.
+      : front(static_cast<float>(1.75 * fusion.spacing + 3 * fusion.noise)),
+        behind(static_cast<float>(fusion.behind)),
+        window(static_cast<float>(0.25 * fusion.spacing + 6 * fusion.noise)),
+        doubt(static_cast<float>(0.25 * fusion.spacing + 3 * fusion.noise)),
+        carved(static_cast<float>(0.5 * fusion.spacing)) {}
+};
+
+/// What the views say of a batch of points.
+class BatchFusion {
+ public:
+  BatchFusion(const std::vector<Projector>& views, const DepthFusion& fusion, std::size_t length)
       : views_(views),
+        t_(fusion),
         length_(length),
         distance_(views.size() * length),
         weight_(distance_.size()),
         top_(length),
         sum_(length),
         total_(length),
-        carved_(length) {
-    // Beside a node that lies inside, those outside are less than a cell's diagonal away.
-    front_ = static_cast<float>(1.75 * fusion.spacing + 3 * fusion.noise);
-    behind_ = static_cast<float>(fusion.behind);
-    window_ = static_cast<float>(0.25 * fusion.spacing + 6 * fusion.noise);
-    doubt_ = static_cast<float>(0.25 * fusion.spacing + 3 * fusion.noise);
-    carved_value_ = static_cast<float>(0.5 * fusion.spacing);
-    for (const DepthView& view : views) projectors_.emplace_back(view);
-  }
+        carved_(length),
+        scratch_(length) {}
 
-  void fuse(const Vec3& start, double spacing, float* values) {
+  /// \param looking  the views to be asked
+  /// \param carved   whether one of the others saw through all points
+  void fuse(const PointBatch& points, std::span<const std::uint32_t> looking, bool carved) {
     std::fill(top_.begin(), top_.end(), nothing);
-    std::fill(carved_.begin(), carved_.end(), 0);
-    for (std::size_t v = 0; v < views_.size(); ++v) look(v, start, spacing);
+    std::fill(carved_.begin(), carved_.end(), static_cast<float>(carved));
+    for (std::size_t v = 0; v < looking.size(); ++v) {
+      float* distance = distance_.data() + v * length_;
+      float* weight = weight_.data() + v * length_;
+      views_[looking[v]].look(points, scratch_, distance, weight);
+      for (std::size_t i = 0; i < length_; ++i) {
+        const bool near = weight[i] > 0 && distance[i] <= t_.front && distance[i] >= -t_.behind;
+        top_[i] = std::max(top_[i], near ? distance[i] : nothing);
+        carved_[i] = distance[i] > t_.front ? 1.0F : carved_[i];
+      }
+    }
     std::fill(sum_.begin(), sum_.end(), 0.0F);
     std::fill(total_.begin(), total_.end(), 0.0F);
-    for (std::size_t v = 0; v < views_.size(); ++v) {
+    for (std::size_t v = 0; v < looking.size(); ++v) {
       const float* distance = distance_.data() + v * length_;
       const float* weight = weight_.data() + v * length_;
       for (std::size_t i = 0; i < length_; ++i) {
-        const bool counts = distance[i] <= front_ && distance[i] >= top_[i] - window_;
-        const float w = counts ? weight[i] : 0.0F;
-        sum_[i] += w * (counts ? distance[i] : 0.0F);
+        const float w = distance[i] <= t_.front && distance[i] >= top_[i] - t_.window ? weight[i] : 0.0F;
+        sum_[i] += w > 0 ? w * distance[i] : 0.0F;
         total_[i] += w;
       }
     }
-    for (std::size_t i = 0; i < length_; ++i) values[i] = value(i);
+  }
+
+  bool measured(std::size_t i) const { return top_[i] > nothing; }
+  float measurement(std::size_t i) const { return sum_[i] / total_[i]; }
+  float value(std::size_t i) const {
+    if (carved_[i] == 0) return measured(i) ? measurement(i) : -t_.front;
+    if (!measured(i)) return t_.front;
+    // Seen through, though the views near it say that it lies deeper than the noise explains: behind them.
+    return top_[i] > -t_.doubt ? measurement(i) : t_.carved;
   }
 
  private:
   static constexpr float nothing = -1e30F;
-
-  void look(std::size_t v, const Vec3& start, double spacing) {
-    const Eigen::Vector3f first = (views_[v].axes * (start - views_[v].viewpoint)).cast<float>();
-    const Eigen::Vector3f step = (spacing * views_[v].axes.col(0)).cast<float>();
-    float* distance = distance_.data() + v * length_;
-    float* weight = weight_.data() + v * length_;
-    for (std::size_t i = 0; i < length_; ++i) {
-      const Projector::Look seen = projectors_[v](first + static_cast<float>(i) * step);
-      distance[i] = seen.distance;
-      weight[i] = seen.weight;
-      const bool near = seen.weight > 0 && seen.distance <= front_ && seen.distance >= -behind_;
-      top_[i] = std::max(top_[i], near ? seen.distance : nothing);
-      carved_[i] |= seen.distance > front_;
-    }
-  }
-
-  float value(std::size_t i) const {
-    const bool near = top_[i] > nothing;
-    if (!carved_[i]) return near ? sum_[i] / total_[i] : -front_;
-    if (!near) return front_;
-    // Seen through, though the views near it say that it lies deeper than the noise explains: behind them.
-    return top_[i] > -doubt_ ? sum_[i] / total_[i] : carved_value_;
-  }
-
-  std::span<const DepthView> views_;
+  const std::vector<Projector>& views_;
+  Thresholds t_;
   std::size_t length_;
-  std::vector<Projector> projectors_;
-  std::vector<float> distance_, weight_;  // by view and node
-  std::vector<float> top_, sum_, total_;
-  std::vector<char> carved_;
-  float front_, behind_, window_, doubt_, carved_value_;
+  std::vector<float> distance_, weight_;  // by view and point
+  std::vector<float> top_, sum_, total_, carved_;
+  Projector::Scratch scratch_;
+};
+
+/// A block of 4 nodes along each axis.
+class BlockFusion {
+ public:
+  static constexpr std::size_t side = 4;
+
+  BlockFusion(const std::vector<Projector>& views, const DepthFusion& fusion)
+      : views_(views), t_(fusion), points_(side * side * side), batch_(views, fusion, points_.size()) {}
+
+  void fuse(NodeGrid& grid, std::size_t x0, std::size_t y0, std::size_t z0) {
+    const Vec3 center = grid.position(x0, y0, z0, Vec3::Constant((side - 1) / 2.0));
+    const auto radius = static_cast<float>((side - 1) / 2.0 * std::sqrt(3.0) * grid.spacing);
+    looking_.clear();
+    bool carved = false;
+    for (std::uint32_t v = 0; v < views_.size(); ++v) {
+      const Projector::Verdict verdict = views_[v].judge(center.cast<float>(), radius, t_.front, t_.behind);
+      carved = carved || verdict == Projector::Verdict::free;
+      if (verdict == Projector::Verdict::unclear) looking_.push_back(v);
+    }
+    std::size_t i = 0;
+    for (std::size_t z = z0; z < z0 + side; ++z)
+      for (std::size_t y = y0; y < y0 + side; ++y)
+        for (std::size_t x = x0; x < x0 + side; ++x) points_.set(i++, grid.position(x, y, z));
+    batch_.fuse(points_, looking_, carved);
+    i = 0;
+    for (std::size_t z = z0; z < z0 + side; ++z)
+      for (std::size_t y = y0; y < y0 + side; ++y)
+        for (std::size_t x = x0; x < x0 + side; ++x) grid.values[grid.node(x, y, z)] = batch_.value(i++);
+  }
+
+ private:
+  const std::vector<Projector>& views_;
+  Thresholds t_;
+  PointBatch points_;
+  BatchFusion batch_;
+  std::vector<std::uint32_t> looking_;
 };
 
 /// Fills in nodes until no two cells' faces meet in an edge or a corner alone: the set of nodes inside is
@@ -200,33 +313,99 @@ void clear_border(NodeGrid& grid) {
           grid.values[grid.node(x, y, z)] = outside;
 }
 
+std::vector<Projector> projectors_of(std::span<const DepthView> views, Context& context) {
+  std::vector<std::optional<Projector>> made(views.size());
+  context.parallel_for(views.size(), 4, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) made[v].emplace(views[v]);
+  });
+  std::vector<Projector> projectors;
+  for (std::optional<Projector>& projector : made) projectors.push_back(std::move(*projector));
+  return projectors;
+}
+
+/// Direction in which the distance grows, interpolated in the cell about a point.
+Vec3 gradient_at(const NodeGrid& grid, const Vec3& point) {
+  const Vec3 at = (point - grid.origin) / grid.spacing;
+  std::array<std::size_t, 3> cell;
+  std::array<double, 3> part;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = at[static_cast<Eigen::Index>(k)];
+    cell[k] = static_cast<std::size_t>(x);
+    part[k] = x - static_cast<double>(cell[k]);
+  }
+  Vec3 gradient = Vec3::Zero();
+  for (std::size_t c = 0; c < 8; ++c) {
+    const std::array<std::size_t, 3> bit = {c & 1, c >> 1 & 1, c >> 2};
+    const double value = grid.values[grid.node(cell[0] + bit[0], cell[1] + bit[1], cell[2] + bit[2])];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+      gradient[static_cast<Eigen::Index>(k)] += (bit[k] == 1 ? value : -value) * (bit[u] == 1 ? part[u] : 1 - part[u]) *
+                                                (bit[v] == 1 ? part[v] : 1 - part[v]);
+    }
+  }
+  return gradient;
+}
+
+/// Moves vertices by the measured distance along the gradient: those of a surface net lie inside of bends.
+void settle(std::vector<Vec3>& positions, const NodeGrid& grid, const std::vector<Projector>& views,
+            const DepthFusion& fusion, Context& context) {
+  constexpr std::size_t size = 256;
+  std::vector<std::uint32_t> all(views.size());
+  std::iota(all.begin(), all.end(), 0U);
+  context.parallel_for((positions.size() + size - 1) / size, 4, [&](std::size_t first, std::size_t last) {
+    PointBatch points(size);
+    BatchFusion batch(views, fusion, size);
+    for (std::size_t c = first; c < last; ++c) {
+      const std::size_t begin = c * size, count = std::min(size, positions.size() - begin);
+      for (std::size_t i = 0; i < count; ++i) points.set(i, positions[begin + i]);
+      batch.fuse(points, all, false);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!batch.measured(i) || std::abs(batch.measurement(i)) > 0.5 * grid.spacing) continue;
+        const Vec3 gradient = gradient_at(grid, positions[begin + i]);
+        if (const double length = gradient.norm(); length > 0)
+          positions[begin + i] -= static_cast<double>(batch.measurement(i)) / length * gradient;
+      }
+    }
+  });
+}
+
 }  // namespace
 
-NodeGrid fuse_depths(std::span<const DepthView> views, const DepthFusion& fusion, const Vec3& low, const Vec3& high,
-                     Context& context) {
+TriangleSoup fuse_depths(std::span<const DepthView> views, const DepthFusion& fusion, const Vec3& low, const Vec3& high,
+                         Context& context) {
   const Vec3 margin = Vec3::Constant(3 * fusion.spacing);
   NodeGrid grid = make_node_grid(low - margin, high + margin, fusion.spacing);
-  context.parallel_for(grid.size[1] * grid.size[2], 256, [&](std::size_t first, std::size_t last) {
-    RowFusion row(views, fusion, grid.size[0]);
-    for (std::size_t r = first; r < last; ++r)
-      row.fuse(grid.position(0, r % grid.size[1], r / grid.size[1]), grid.spacing,
-               grid.values.data() + r * grid.size[0]);
+  const std::vector<Projector> projectors = projectors_of(views, context);
+  constexpr std::size_t side = BlockFusion::side;
+  const std::size_t wide = grid.size[0] / side, high_blocks = grid.size[1] / side, deep = grid.size[2] / side;
+  context.parallel_for(wide * high_blocks * deep, 16, [&](std::size_t first, std::size_t last) {
+    BlockFusion block(projectors, fusion);
+    for (std::size_t b = first; b < last; ++b)
+      block.fuse(grid, b % wide * side, b / wide % high_blocks * side, b / (wide * high_blocks) * side);
   });
   clear_border(grid);
   Filler(grid).run();
-  return grid;
+  TriangleSoup mesh = surface_net(grid, {}, context);
+  settle(mesh.positions, grid, projectors, fusion, context);
+  return mesh;
 }
 
 std::vector<char> measured_near(std::span<const DepthView> views, std::span<const Vec3> points, double tolerance,
                                 Context& context) {
+  const std::vector<Projector> projectors = projectors_of(views, context);
   std::vector<char> measured(points.size(), 0);
-  context.parallel_for(points.size(), 1024, [&](std::size_t first, std::size_t last) {
-    for (const DepthView& view : views) {
-      const Projector project(view);
-      for (std::size_t i = first; i < last; ++i) {
-        const Eigen::Vector3f p = (view.axes * (points[i] - view.viewpoint)).cast<float>();
-        const Projector::Look seen = project(p);
-        if (seen.weight > 0 && std::abs(seen.distance) <= static_cast<float>(tolerance)) measured[i] = 1;
+  constexpr std::size_t size = 256;
+  context.parallel_for((points.size() + size - 1) / size, 4, [&](std::size_t first, std::size_t last) {
+    PointBatch batch(size);
+    Projector::Scratch scratch(size);
+    std::vector<float> distance(size), weight(size);
+    for (std::size_t c = first; c < last; ++c) {
+      const std::size_t begin = c * size, count = std::min(size, points.size() - begin);
+      for (std::size_t i = 0; i < count; ++i) batch.set(i, points[begin + i]);
+      for (const Projector& projector : projectors) {
+        projector.look(batch, scratch, distance.data(), weight.data());
+        for (std::size_t i = 0; i < count; ++i)
+          if (weight[i] > 0 && std::abs(distance[i]) <= static_cast<float>(tolerance)) measured[begin + i] = 1;
       }
     }
   });

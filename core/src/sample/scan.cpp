@@ -24,7 +24,7 @@ namespace {
 void check(const ScanSettings& settings) {
   const auto refuse = [](const std::string& what) { throw UsageError("scan: " + what); };
   if (settings.viewpoints < 4 || settings.viewpoints > 1000)
-    refuse(fmt::format("viewpoints is {}: it must lie between 4 and 1000; the default is 20", settings.viewpoints));
+    refuse(fmt::format("viewpoints is {}: it must lie between 4 and 1000; the default is 60", settings.viewpoints));
   if (settings.seen_from > settings.viewpoints)
     refuse(fmt::format("seen from {} viewpoints of {}: ask for fewer, or for more viewpoints", settings.seen_from,
                        settings.viewpoints));
@@ -125,9 +125,8 @@ Sample scan(const Sample& exact, const ScanSettings& settings, std::span<const S
                   {.pixel = spacing / 2, .distance = 3 * radius, .noise = noise, .seed = settings.seed}, context);
   const Extent box = extent_of(posed.mesh.positions);
   const Vec3 margin = Vec3::Constant(4 * noise);
-  const NodeGrid grid = fuse_depths(views, {.spacing = spacing, .behind = 1.7 * spacing, .noise = noise},
-                                    box.low - margin, box.high + margin, context);
-  TriangleSoup raw = surface_net(grid, {}, context);
+  TriangleSoup raw = fuse_depths(views, {.spacing = spacing, .behind = 1.7 * spacing, .noise = noise},
+                                 box.low - margin, box.high + margin, context);
   if (settings.seen_from > 0) keep_measured(raw, views, spacing + 3 * noise, context);
   keep_large_components(raw, settings.seen_from == 0);
   raw.input_faces = static_cast<Index>(raw.triangles.size());

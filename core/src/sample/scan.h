@@ -11,10 +11,10 @@ class PluginHost;
 /// What a scanner and the dissertation's chain (2.4) make of an object.
 struct ScanSettings {
   Index faces = 20000;        ///< of the mesh
-  Index viewpoints = 20;      ///< spread evenly around the object
+  Index viewpoints = 60;      ///< spread evenly around the object
   Index seen_from = 0;        ///< 0: all of them; else those nearest to a random direction, and the mesh stays open
   double noise_rel = 0.0005;  ///< standard deviation of the noise along the ray, in diagonals of the object's box
-  int smoothing = 10;         ///< passes of Taubin's filter
+  int smoothing = 3;        ///< passes of Taubin's filter
   std::uint64_t seed = 1;     ///< of pose, noise and choice of viewpoints
 };
 
@@ -22,8 +22,8 @@ struct ScanSettings {
 /// them. \throw PluginError, UsageError  as PluginHost does
 std::vector<Stations::Filter> scan_filters(PluginHost& host, const ScanSettings& settings);
 
-/// An object as make_sample makes it, but with the fine mesh that a scan wants: its vertices lie on the exact surface,
-/// its edges are half as long as a grid that resolves the thinnest part. \throw UsageError  as make_sample does
+/// An object as make_sample makes it, but with the mesh that a scan wants: its vertices lie on the exact surface, as do
+/// its edges' middles within a hundredth of the thinnest part. \throw UsageError  as make_sample does
 Sample make_scan_target(const SampleRequest& request, Context& context);
 
 /// Turns the object at random, moves it by up to its diagonal along each axis, looks at it from viewpoints at three
