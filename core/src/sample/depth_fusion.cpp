@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sample/depth_fusion.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,12 +12,13 @@ namespace toposcope {
 
 namespace {
 
+using Floats = Eigen::ArrayXf;
+
 /// Points about the origin, coordinate by coordinate.
 struct PointBatch {
-  std::vector<float> x, y, z;
-  explicit PointBatch(std::size_t count) : x(count), y(count), z(count) {}
-  std::size_t size() const { return x.size(); }
-  void set(std::size_t i, const Vec3& p) {
+  Floats x, y, z;
+  explicit PointBatch(Eigen::Index most) : x(most), y(most), z(most) {}
+  void set(Eigen::Index i, const Vec3& p) {
     x[i] = static_cast<float>(p.x());
     y[i] = static_cast<float>(p.y());
     z[i] = static_cast<float>(p.z());
@@ -34,8 +36,8 @@ class Projector {
  public:
   /// Where points come to lie in the image.
   struct Scratch {
-    std::vector<float> depth, column, row;
-    explicit Scratch(std::size_t count) : depth(count), column(count), row(count) {}
+    Floats depth, scale, column, row;
+    explicit Scratch(Eigen::Index most) : depth(most), scale(most), column(most), row(most) {}
   };
 
   explicit Projector(const DepthView& view)
@@ -86,26 +88,25 @@ class Projector {
     return Verdict::unclear;
   }
 
-  /// For each point the distance to the plane seen there, positive in front of it, and the measurement's weight.
-  void look(const PointBatch& points, Scratch& scratch, float* distance, float* weight) const {
-    const std::size_t count = points.size();
-    float *depths = scratch.depth.data(), *columns = scratch.column.data(), *rows = scratch.row.data();
-    for (std::size_t i = 0; i < count; ++i) {
-      const float x = points.x[i], y = points.y[i], z = points.z[i];
-      depths[i] = axes_(2, 0) * x + axes_(2, 1) * y + axes_(2, 2) * z + offset_.z();
-      const float scale = focal_ / depths[i];
-      const float column = (axes_(0, 0) * x + axes_(0, 1) * y + axes_(0, 2) * z + offset_.x()) * scale + center_x_;
-      const float row = (axes_(1, 0) * x + axes_(1, 1) * y + axes_(1, 2) * z + offset_.y()) * scale + center_y_;
-      columns[i] = std::min(std::max(column, 0.0F), last_x_);
-      rows[i] = std::min(std::max(row, 0.0F), last_y_);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
+  /// Calls take(i, distance, weight) for each point: the distance to the plane seen there, positive in front of it, and
+  /// the measurement's weight.
+  template <class Take>
+  void look(const PointBatch& points, Eigen::Index count, Scratch& scratch, Take take) const {
+    const auto x = points.x.head(count), y = points.y.head(count), z = points.z.head(count);
+    auto depth = scratch.depth.head(count), scale = scratch.scale.head(count);
+    auto columns = scratch.column.head(count), rows = scratch.row.head(count);
+    depth = axes_(2, 0) * x + axes_(2, 1) * y + axes_(2, 2) * z + offset_.z();
+    scale = focal_ / depth;
+    columns = (axes_(0, 0) * x + axes_(0, 1) * y + axes_(0, 2) * z + offset_.x()) * scale + center_x_;
+    columns = columns.max(0.0F).min(last_x_);
+    rows = (axes_(1, 0) * x + axes_(1, 1) * y + axes_(1, 2) * z + offset_.y()) * scale + center_y_;
+    rows = rows.max(0.0F).min(last_y_);
+    for (Eigen::Index i = 0; i < count; ++i) {
       const auto column = static_cast<std::int32_t>(columns[i]), row = static_cast<std::int32_t>(rows[i]);
       const DepthCell& cell = cells_[static_cast<std::size_t>(row) * width_ + static_cast<std::size_t>(column)];
       const float fx = columns[i] - static_cast<float>(column), fy = rows[i] - static_cast<float>(row);
       const float w = cell.w + fx * cell.wx + fy * (cell.wy + fx * cell.wxy);
-      distance[i] = (1 - depths[i] * w) * cell.plane;
-      weight[i] = cell.weight;
+      take(static_cast<std::size_t>(i), (1 - depth[i] * w) * cell.plane, cell.weight);
     }
   }
 
@@ -130,46 +131,44 @@ struct Thresholds {
         carved(static_cast<float>(0.5 * fusion.spacing)) {}
 };
 
-/// What the views say of a batch of points.
+/// What the views say of a batch of points that lie close together.
 class BatchFusion {
  public:
-  BatchFusion(const std::vector<Projector>& views, const DepthFusion& fusion, std::size_t length)
+  BatchFusion(const std::vector<Projector>& views, const DepthFusion& fusion, std::size_t most_points)
       : views_(views),
         t_(fusion),
-        length_(length),
-        distance_(views.size() * length),
-        weight_(distance_.size()),
-        top_(length),
-        sum_(length),
-        total_(length),
-        carved_(length),
-        scratch_(length) {}
+        top_(most_points),
+        sum_(most_points),
+        total_(most_points),
+        carved_(most_points),
+        scratch_(static_cast<Eigen::Index>(most_points)) {}
 
-  /// \param looking  the views to be asked
-  /// \param carved   whether one of the others saw through all points
-  void fuse(const PointBatch& points, std::span<const std::uint32_t> looking, bool carved) {
-    std::fill(top_.begin(), top_.end(), nothing);
-    std::fill(carved_.begin(), carved_.end(), static_cast<float>(carved));
-    for (std::size_t v = 0; v < looking.size(); ++v) {
-      float* distance = distance_.data() + v * length_;
-      float* weight = weight_.data() + v * length_;
-      views_[looking[v]].look(points, scratch_, distance, weight);
-      for (std::size_t i = 0; i < length_; ++i) {
-        const bool near = weight[i] > 0 && distance[i] <= t_.front && distance[i] >= -t_.behind;
-        top_[i] = std::max(top_[i], near ? distance[i] : nothing);
-        carved_[i] = distance[i] > t_.front ? 1.0F : carved_[i];
-      }
+  /// \param center, radius  a ball that contains the points
+  void fuse(const PointBatch& points, std::size_t count, const Vec3& center, float radius) {
+    std::fill_n(top_.begin(), count, nothing);
+    std::fill_n(carved_.begin(), count, 0);
+    near_.clear();
+    bool all_carved = false;
+    for (const Projector& view : views_) {
+      const Projector::Verdict verdict = view.judge(center.cast<float>(), radius, t_.front, t_.behind);
+      all_carved = all_carved || verdict == Projector::Verdict::free;
+      if (verdict != Projector::Verdict::unclear) continue;
+      view.look(points, static_cast<Eigen::Index>(count), scratch_, [&](std::size_t i, float distance, float weight) {
+        if (distance > t_.front) {
+          carved_[i] = 1;
+        } else if (distance >= -t_.behind && weight > 0) {
+          top_[i] = std::max(top_[i], distance);
+          near_.push_back({static_cast<std::uint32_t>(i), distance, weight});
+        }
+      });
     }
-    std::fill(sum_.begin(), sum_.end(), 0.0F);
-    std::fill(total_.begin(), total_.end(), 0.0F);
-    for (std::size_t v = 0; v < looking.size(); ++v) {
-      const float* distance = distance_.data() + v * length_;
-      const float* weight = weight_.data() + v * length_;
-      for (std::size_t i = 0; i < length_; ++i) {
-        const float w = distance[i] <= t_.front && distance[i] >= top_[i] - t_.window ? weight[i] : 0.0F;
-        sum_[i] += w > 0 ? w * distance[i] : 0.0F;
-        total_[i] += w;
-      }
+    if (all_carved) std::fill_n(carved_.begin(), count, 1);
+    std::fill_n(sum_.begin(), count, 0.0F);
+    std::fill_n(total_.begin(), count, 0.0F);
+    for (const Measurement& m : near_) {
+      const float w = m.distance >= top_[m.point] - t_.window ? m.weight : 0;
+      sum_[m.point] += w * m.distance;
+      total_[m.point] += w;
     }
   }
 
@@ -184,11 +183,15 @@ class BatchFusion {
 
  private:
   static constexpr float nothing = -1e30F;
+  struct Measurement {
+    std::uint32_t point;
+    float distance, weight;
+  };
   const std::vector<Projector>& views_;
   Thresholds t_;
-  std::size_t length_;
-  std::vector<float> distance_, weight_;  // by view and point
-  std::vector<float> top_, sum_, total_, carved_;
+  std::vector<float> top_, sum_, total_;
+  std::vector<char> carved_;
+  std::vector<Measurement> near_;
   Projector::Scratch scratch_;
 };
 
@@ -198,23 +201,17 @@ class BlockFusion {
   static constexpr std::size_t side = 4;
 
   BlockFusion(const std::vector<Projector>& views, const DepthFusion& fusion)
-      : views_(views), t_(fusion), points_(side * side * side), batch_(views, fusion, points_.size()) {}
+      : points_(side * side * side), batch_(views, fusion, side * side * side) {}
 
   void fuse(NodeGrid& grid, std::size_t x0, std::size_t y0, std::size_t z0) {
     const Vec3 center = grid.position(x0, y0, z0, Vec3::Constant((side - 1) / 2.0));
     const auto radius = static_cast<float>((side - 1) / 2.0 * std::sqrt(3.0) * grid.spacing);
-    looking_.clear();
-    bool carved = false;
-    for (std::uint32_t v = 0; v < views_.size(); ++v) {
-      const Projector::Verdict verdict = views_[v].judge(center.cast<float>(), radius, t_.front, t_.behind);
-      carved = carved || verdict == Projector::Verdict::free;
-      if (verdict == Projector::Verdict::unclear) looking_.push_back(v);
-    }
     std::size_t i = 0;
     for (std::size_t z = z0; z < z0 + side; ++z)
       for (std::size_t y = y0; y < y0 + side; ++y)
-        for (std::size_t x = x0; x < x0 + side; ++x) points_.set(i++, grid.position(x, y, z));
-    batch_.fuse(points_, looking_, carved);
+        for (std::size_t x = x0; x < x0 + side; ++x)
+          points_.set(static_cast<Eigen::Index>(i++), grid.position(x, y, z));
+    batch_.fuse(points_, i, center, radius);
     i = 0;
     for (std::size_t z = z0; z < z0 + side; ++z)
       for (std::size_t y = y0; y < y0 + side; ++y)
@@ -222,11 +219,8 @@ class BlockFusion {
   }
 
  private:
-  const std::vector<Projector>& views_;
-  Thresholds t_;
   PointBatch points_;
   BatchFusion batch_;
-  std::vector<std::uint32_t> looking_;
 };
 
 /// Fills in nodes until no two cells' faces meet in an edge or a corner alone: the set of nodes inside is
@@ -346,24 +340,44 @@ Vec3 gradient_at(const NodeGrid& grid, const Vec3& point) {
   return gradient;
 }
 
-/// Moves vertices by the measured distance along the gradient: those of a surface net lie inside of bends.
+/// Moves vertices by the measured distance along the gradient: those of a surface net lie inside of bends. Vertices are
+/// taken by blocks of cells, so that each is asked of few views.
 void settle(std::vector<Vec3>& positions, const NodeGrid& grid, const std::vector<Projector>& views,
             const DepthFusion& fusion, Context& context) {
-  constexpr std::size_t size = 256;
-  std::vector<std::uint32_t> all(views.size());
-  std::iota(all.begin(), all.end(), 0U);
-  context.parallel_for((positions.size() + size - 1) / size, 4, [&](std::size_t first, std::size_t last) {
-    PointBatch points(size);
-    BatchFusion batch(views, fusion, size);
-    for (std::size_t c = first; c < last; ++c) {
-      const std::size_t begin = c * size, count = std::min(size, positions.size() - begin);
-      for (std::size_t i = 0; i < count; ++i) points.set(i, positions[begin + i]);
-      batch.fuse(points, all, false);
+  constexpr std::size_t side = 4, most = side * side * side;
+  const std::array<std::size_t, 3> blocks = {grid.size[0] / side, grid.size[1] / side, grid.size[2] / side};
+  const auto block_of = [&](const Vec3& p) {
+    std::size_t block = 0;
+    for (std::size_t k = 3; k-- > 0;) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      block = block * blocks[k] + static_cast<std::size_t>((p[axis] - grid.origin[axis]) / grid.spacing) / side;
+    }
+    return block;
+  };
+  std::vector<Index> first_of(blocks[0] * blocks[1] * blocks[2] + 1, 0), order(positions.size());
+  std::vector<std::size_t> block(positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) ++first_of[(block[v] = block_of(positions[v])) + 1];
+  std::partial_sum(first_of.begin(), first_of.end(), first_of.begin());
+  std::vector<Index> next(first_of.begin(), first_of.end() - 1);
+  for (std::size_t v = 0; v < positions.size(); ++v) order[next[block[v]]++] = static_cast<Index>(v);
+  const auto radius = static_cast<float>(side / 2.0 * std::sqrt(3.0) * grid.spacing);
+  context.parallel_for(first_of.size() - 1, 64, [&](std::size_t first, std::size_t last) {
+    PointBatch points(most);
+    BatchFusion batch(views, fusion, most);
+    for (std::size_t b = first; b < last; ++b) {
+      const std::size_t count = first_of[b + 1] - first_of[b];  // a vertex for each cell at most
+      if (count == 0) continue;
+      const Index* members = order.data() + first_of[b];
+      for (std::size_t i = 0; i < count; ++i) points.set(static_cast<Eigen::Index>(i), positions[members[i]]);
+      const Vec3 center = grid.position(b % blocks[0] * side, b / blocks[0] % blocks[1] * side,
+                                        b / (blocks[0] * blocks[1]) * side, Vec3::Constant(side / 2.0));
+      batch.fuse(points, count, center, radius);
       for (std::size_t i = 0; i < count; ++i) {
         if (!batch.measured(i) || std::abs(batch.measurement(i)) > 0.5 * grid.spacing) continue;
-        const Vec3 gradient = gradient_at(grid, positions[begin + i]);
+        Vec3& position = positions[members[i]];
+        const Vec3 gradient = gradient_at(grid, position);
         if (const double length = gradient.norm(); length > 0)
-          positions[begin + i] -= static_cast<double>(batch.measurement(i)) / length * gradient;
+          position -= static_cast<double>(batch.measurement(i)) / length * gradient;
       }
     }
   });
@@ -377,11 +391,15 @@ TriangleSoup fuse_depths(std::span<const DepthView> views, const DepthFusion& fu
   NodeGrid grid = make_node_grid(low - margin, high + margin, fusion.spacing);
   const std::vector<Projector> projectors = projectors_of(views, context);
   constexpr std::size_t side = BlockFusion::side;
-  const std::size_t wide = grid.size[0] / side, high_blocks = grid.size[1] / side, deep = grid.size[2] / side;
-  context.parallel_for(wide * high_blocks * deep, 16, [&](std::size_t first, std::size_t last) {
+  // Eight blocks together look at about the same pixels.
+  const std::size_t wide = grid.size[0] / (2 * side), rows = grid.size[1] / (2 * side),
+                    deep = grid.size[2] / (2 * side);
+  context.parallel_for(wide * rows * deep, 8, [&](std::size_t first, std::size_t last) {
     BlockFusion block(projectors, fusion);
     for (std::size_t b = first; b < last; ++b)
-      block.fuse(grid, b % wide * side, b / wide % high_blocks * side, b / (wide * high_blocks) * side);
+      for (std::size_t c = 0; c < 8; ++c)
+        block.fuse(grid, (2 * (b % wide) + (c & 1)) * side, (2 * (b / wide % rows) + (c >> 1 & 1)) * side,
+                   (2 * (b / (wide * rows)) + (c >> 2)) * side);
   });
   clear_border(grid);
   Filler(grid).run();
@@ -398,15 +416,14 @@ std::vector<char> measured_near(std::span<const DepthView> views, std::span<cons
   context.parallel_for((points.size() + size - 1) / size, 4, [&](std::size_t first, std::size_t last) {
     PointBatch batch(size);
     Projector::Scratch scratch(size);
-    std::vector<float> distance(size), weight(size);
     for (std::size_t c = first; c < last; ++c) {
       const std::size_t begin = c * size, count = std::min(size, points.size() - begin);
-      for (std::size_t i = 0; i < count; ++i) batch.set(i, points[begin + i]);
-      for (const Projector& projector : projectors) {
-        projector.look(batch, scratch, distance.data(), weight.data());
-        for (std::size_t i = 0; i < count; ++i)
-          if (weight[i] > 0 && std::abs(distance[i]) <= static_cast<float>(tolerance)) measured[begin + i] = 1;
-      }
+      for (std::size_t i = 0; i < count; ++i) batch.set(static_cast<Eigen::Index>(i), points[begin + i]);
+      for (const Projector& projector : projectors)
+        projector.look(batch, static_cast<Eigen::Index>(count), scratch,
+                       [&](std::size_t i, float distance, float weight) {
+                         if (weight > 0 && std::abs(distance) <= static_cast<float>(tolerance)) measured[begin + i] = 1;
+                       });
     }
   });
   return measured;

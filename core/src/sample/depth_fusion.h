@@ -15,12 +15,12 @@ struct DepthFusion {
   double noise = 0;    ///< standard deviation of the depths
 };
 
-/// The surface of the solid that the views show. Signed distances on a grid from `low` to `high`: truncated distances of
-/// the views are averaged with the cosine of the view as weight (Curless and Levoy 1996); what any view saw through is
-/// carved away, what none saw is inside (Pulli 1997, dissertation 2.4.2), so that the surface is closed. Of several
-/// surfaces near a point the one most in front counts, within the noise: at an edge, views of one side alone would round
-/// it. Nodes outside are filled in where the surface would touch itself along an edge or in a point (Latecki 1997), so
-/// that it is a manifold. Its vertices are those of a surface net, moved by the distance measured there.
+/// The surface of the solid that the views show. Signed distances on a grid from `low` to `high`: truncated distances
+/// of the views are averaged with the cosine of the view as weight (Curless and Levoy 1996); what any view saw through
+/// is carved away, what none saw is inside (Pulli 1997, dissertation 2.4.2), so that the surface is closed. Of several
+/// surfaces near a point the one most in front counts, within the noise: at an edge, views of one side alone would
+/// round it. Nodes outside are filled in where the surface would touch itself along an edge or in a point (Latecki
+/// 1997), so that it is a manifold. Its vertices are those of a surface net, moved by the distance measured there.
 TriangleSoup fuse_depths(std::span<const DepthView> views, const DepthFusion& fusion, const Vec3& low, const Vec3& high,
                          Context& context);
 

@@ -97,10 +97,10 @@ std::vector<Stations::Filter> scan_filters(PluginHost& host, const ScanSettings&
     const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id, "scan");
     return Stations::Filter{id, host.filter(id, check_options(manifest.options, given, "scan: filter '" + id + "'"))};
   };
-  // Normalising is the slow step: it gets few faces more than are wanted, and needs no more than three rounds for that.
+  // Normalising is the slow step: it gets few faces more than are wanted, and needs no more than two rounds for that.
   return {plugin("taubin", {{"passes", std::to_string(settings.smoothing)}}),
-          {"thin", std::make_shared<Thin>(settings.faces + settings.faces / 3)},
-          plugin("normalise", {{"faces", std::to_string(settings.faces)}, {"rounds", "3"}})};
+          {"thin", std::make_shared<Thin>(settings.faces + settings.faces / 4)},
+          plugin("normalise", {{"faces", std::to_string(settings.faces)}, {"rounds", "2"}})};
 }
 
 Sample scan(const Sample& exact, const ScanSettings& settings, std::span<const Stations::Filter> filters,
@@ -125,8 +125,8 @@ Sample scan(const Sample& exact, const ScanSettings& settings, std::span<const S
                   {.pixel = spacing / 2, .distance = 3 * radius, .noise = noise, .seed = settings.seed}, context);
   const Extent box = extent_of(posed.mesh.positions);
   const Vec3 margin = Vec3::Constant(4 * noise);
-  TriangleSoup raw = fuse_depths(views, {.spacing = spacing, .behind = 1.7 * spacing, .noise = noise},
-                                 box.low - margin, box.high + margin, context);
+  TriangleSoup raw = fuse_depths(views, {.spacing = spacing, .behind = 1.7 * spacing, .noise = noise}, box.low - margin,
+                                 box.high + margin, context);
   if (settings.seen_from > 0) keep_measured(raw, views, spacing + 3 * noise, context);
   keep_large_components(raw, settings.seen_from == 0);
   raw.input_faces = static_cast<Index>(raw.triangles.size());

@@ -14,7 +14,7 @@ struct ScanSettings {
   Index viewpoints = 60;      ///< spread evenly around the object
   Index seen_from = 0;        ///< 0: all of them; else those nearest to a random direction, and the mesh stays open
   double noise_rel = 0.0005;  ///< standard deviation of the noise along the ray, in diagonals of the object's box
-  int smoothing = 3;        ///< passes of Taubin's filter
+  int smoothing = 3;          ///< passes of Taubin's filter
   std::uint64_t seed = 1;     ///< of pose, noise and choice of viewpoints
 };
 
