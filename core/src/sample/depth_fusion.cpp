@@ -341,9 +341,9 @@ Vec3 gradient_at(const NodeGrid& grid, const Vec3& point) {
 }
 
 /// Moves vertices by the measured distance along the gradient: those of a surface net lie inside of bends. Vertices are
-/// taken by blocks of cells, so that each is asked of few views.
-void settle(std::vector<Vec3>& positions, const NodeGrid& grid, const std::vector<Projector>& views,
-            const DepthFusion& fusion, Context& context) {
+/// taken by blocks of cells, so that each is asked of few views. Returns the gradients.
+std::vector<Vec3> settle(std::vector<Vec3>& positions, const NodeGrid& grid, const std::vector<Projector>& views,
+                         const DepthFusion& fusion, Context& context) {
   constexpr std::size_t side = 4, most = side * side * side;
   const std::array<std::size_t, 3> blocks = {grid.size[0] / side, grid.size[1] / side, grid.size[2] / side};
   const auto block_of = [&](const Vec3& p) {
@@ -361,6 +361,7 @@ void settle(std::vector<Vec3>& positions, const NodeGrid& grid, const std::vecto
   std::vector<Index> next(first_of.begin(), first_of.end() - 1);
   for (std::size_t v = 0; v < positions.size(); ++v) order[next[block[v]]++] = static_cast<Index>(v);
   const auto radius = static_cast<float>(side / 2.0 * std::sqrt(3.0) * grid.spacing);
+  std::vector<Vec3> directions(positions.size());
   context.parallel_for(first_of.size() - 1, 64, [&](std::size_t first, std::size_t last) {
     PointBatch points(most);
     BatchFusion batch(views, fusion, most);
@@ -373,14 +374,14 @@ void settle(std::vector<Vec3>& positions, const NodeGrid& grid, const std::vecto
                                         b / (blocks[0] * blocks[1]) * side, Vec3::Constant(side / 2.0));
       batch.fuse(points, count, center, radius);
       for (std::size_t i = 0; i < count; ++i) {
-        if (!batch.measured(i) || std::abs(batch.measurement(i)) > 0.5 * grid.spacing) continue;
         Vec3& position = positions[members[i]];
-        const Vec3 gradient = gradient_at(grid, position);
-        if (const double length = gradient.norm(); length > 0)
-          position -= static_cast<double>(batch.measurement(i)) / length * gradient;
+        const Vec3 direction = directions[members[i]] = gradient_at(grid, position).stableNormalized();
+        if (batch.measured(i) && std::abs(batch.measurement(i)) <= 0.5 * grid.spacing)
+          position -= static_cast<double>(batch.measurement(i)) * direction;
       }
     }
   });
+  return directions;
 }
 
 }  // namespace
@@ -403,9 +404,8 @@ TriangleSoup fuse_depths(std::span<const DepthView> views, const DepthFusion& fu
   });
   clear_border(grid);
   Filler(grid).run();
-  TriangleSoup mesh = surface_net(grid, {}, context);
-  settle(mesh.positions, grid, projectors, fusion, context);
-  return mesh;
+  return surface_net(
+      grid, [&](std::vector<Vec3>& positions) { return settle(positions, grid, projectors, fusion, context); });
 }
 
 std::vector<char> measured_near(std::span<const DepthView> views, std::span<const Vec3> points, double tolerance,

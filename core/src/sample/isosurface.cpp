@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sample/isosurface.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,15 +58,29 @@ Vec3 crossing_mean(const std::array<float, 8>& values) {
   return sum / count;
 }
 
-void add_quad(TriangleSoup& mesh, const std::array<Index, 4>& q) {
-  const auto gap = [&](int i, int j) { return (mesh.positions[q[i]] - mesh.positions[q[j]]).squaredNorm(); };
-  if (gap(0, 2) <= gap(1, 3)) {
-    mesh.triangles.push_back({q[0], q[1], q[2]});
-    mesh.triangles.push_back({q[0], q[2], q[3]});
+/// Cosine between a triangle's normal and the mean direction of its corners.
+double agreement(const TriangleSoup& mesh, const std::vector<Vec3>& directions, const Triangle& t) {
+  const Vec3& a = mesh.positions[t[0]];
+  const Vec3 normal = (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a);
+  const Vec3 wanted = directions[t[0]] + directions[t[1]] + directions[t[2]];
+  return normal.dot(wanted) / std::max(normal.norm() * wanted.norm(), 1e-300);
+}
+
+/// \param directions  of the vertices; empty: the shorter diagonal cuts
+void add_quad(TriangleSoup& mesh, const std::vector<Vec3>& directions, const std::array<Index, 4>& q) {
+  const std::array<Triangle, 2> one = {{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}};
+  const std::array<Triangle, 2> other = {{{q[0], q[1], q[3]}, {q[1], q[2], q[3]}}};
+  bool first;
+  if (directions.empty()) {
+    const auto gap = [&](int i, int j) { return (mesh.positions[q[i]] - mesh.positions[q[j]]).squaredNorm(); };
+    first = gap(0, 2) <= gap(1, 3);
   } else {
-    mesh.triangles.push_back({q[0], q[1], q[3]});
-    mesh.triangles.push_back({q[1], q[2], q[3]});
+    const auto worse = [&](const std::array<Triangle, 2>& pair) {
+      return std::min(agreement(mesh, directions, pair[0]), agreement(mesh, directions, pair[1]));
+    };
+    first = worse(one) >= worse(other);
   }
+  for (const Triangle& t : first ? one : other) mesh.triangles.push_back(t);
 }
 
 }  // namespace
@@ -86,7 +101,7 @@ NodeGrid make_node_grid(const Vec3& low, const Vec3& high, double spacing) {
   return grid;
 }
 
-TriangleSoup surface_net(const NodeGrid& grid, const std::function<Vec3(const Vec3&)>& place, Context& context) {
+TriangleSoup surface_net(const NodeGrid& grid, const PlaceVertices& place) {
   TriangleSoup mesh;
   std::vector<Index> vertex_of(grid.values.size(), none);
   for (std::size_t z = 0; z + 1 < grid.size[2]; ++z)
@@ -98,11 +113,7 @@ TriangleSoup surface_net(const NodeGrid& grid, const std::function<Vec3(const Ve
         vertex_of[grid.node(x, y, z)] = static_cast<Index>(mesh.positions.size());
         mesh.positions.push_back(grid.position(x, y, z, crossing_mean(values)));
       }
-  if (place)
-    context.parallel_for(mesh.positions.size(), 1024, [&](std::size_t first, std::size_t last) {
-      for (std::size_t v = first; v < last; ++v) mesh.positions[v] = place(mesh.positions[v]);
-    });
-
+  const std::vector<Vec3> directions = place(mesh.positions);
   for (std::size_t z = 1; z + 1 < grid.size[2]; ++z)
     for (std::size_t y = 1; y + 1 < grid.size[1]; ++y)
       for (std::size_t x = 1; x + 1 < grid.size[0]; ++x) {
@@ -115,7 +126,7 @@ TriangleSoup surface_net(const NodeGrid& grid, const std::function<Vec3(const Ve
           std::array<Index, 4> quad = {vertex_of[node - u - v], vertex_of[node - v], vertex_of[node],
                                        vertex_of[node - u]};
           if (to) std::swap(quad[1], quad[3]);  // counter-clockwise seen from outside
-          add_quad(mesh, quad);
+          add_quad(mesh, directions, quad);
         }
       }
   return mesh;
@@ -125,8 +136,12 @@ TriangleSoup extract_isosurface(const Implicit& surface, const Vec3& low, const 
                                 Context& context) {
   NodeGrid grid = make_node_grid(low, high, spacing);
   fill(grid, surface, context);
-  return surface_net(
-      grid, [&](const Vec3& p) { return project(surface, p, spacing); }, context);
+  return surface_net(grid, [&](std::vector<Vec3>& positions) {
+    context.parallel_for(positions.size(), 1024, [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) positions[v] = project(surface, positions[v], spacing);
+    });
+    return std::vector<Vec3>();
+  });
 }
 
 bool is_closed_manifold(const TriangleSoup& mesh) {

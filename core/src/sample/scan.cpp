@@ -82,29 +82,30 @@ Eigen::Matrix3d random_rotation(Uniform& uniform) {
       .toRotationMatrix();
 }
 
-/// Half the thinnest part, so that no cell meets both sides of a wall; less for many faces, more for much noise.
+/// Half the thinnest part, so that no cell meets both sides of a wall; less where as many faces are wanted. Noise does
+/// not make it coarser: many views average it out.
 double grid_spacing(const Sample& exact, const ScanSettings& settings, double diagonal) {
   constexpr double thinnest_allowed = 0.02;  // of the diagonal, where the sample does not tell
   const double wall = exact.thinnest > 0 ? exact.thinnest : thinnest_allowed * diagonal;
   const double edge = std::sqrt(4 / std::sqrt(3.0) * area_of(exact.mesh) / settings.faces);
-  return std::max(std::min(0.5 * wall, 0.75 * edge), 2 * settings.noise_rel * diagonal);
+  return std::min(0.5 * wall, 0.75 * edge);
 }
 
-}  // namespace
-
-std::vector<Stations::Filter> scan_filters(PluginHost& host, const ScanSettings& settings) {
+/// The steps from the raw surface to the mesh.
+std::vector<Stations::Filter> filters_for(PluginHost& host, Index faces, int smoothing) {
   const auto plugin = [&](const std::string& id, const std::vector<GivenOption>& given) {
     const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id, "scan");
     return Stations::Filter{id, host.filter(id, check_options(manifest.options, given, "scan: filter '" + id + "'"))};
   };
   // Normalising is the slow step: it gets few faces more than are wanted, and needs no more than two rounds for that.
-  return {plugin("taubin", {{"passes", std::to_string(settings.smoothing)}}),
-          {"thin", std::make_shared<Thin>(settings.faces + settings.faces / 4)},
-          plugin("normalise", {{"faces", std::to_string(settings.faces)}, {"rounds", "2"}})};
+  return {plugin("taubin", {{"passes", std::to_string(smoothing)}}),
+          {"thin", std::make_shared<Thin>(faces + faces / 4)},
+          plugin("normalise", {{"faces", std::to_string(faces)}, {"rounds", "2"}})};
 }
 
-Sample scan(const Sample& exact, const ScanSettings& settings, std::span<const Stations::Filter> filters,
-            Context& context) {
+}  // namespace
+
+Sample scan(const Sample& exact, const ScanSettings& settings, PluginHost& host, Context& context) {
   check(settings);
   const Extent extent = extent_of(exact.mesh.positions);
   const double diagonal = extent.diagonal();
@@ -127,18 +128,22 @@ Sample scan(const Sample& exact, const ScanSettings& settings, std::span<const S
   const Vec3 margin = Vec3::Constant(4 * noise);
   TriangleSoup raw = fuse_depths(views, {.spacing = spacing, .behind = 1.7 * spacing, .noise = noise}, box.low - margin,
                                  box.high + margin, context);
-  if (settings.seen_from > 0) keep_measured(raw, views, spacing + 3 * noise, context);
-  keep_large_components(raw, settings.seen_from == 0);
+  const bool partial = settings.seen_from > 0;
+  if (partial) keep_measured(raw, views, spacing + 3 * noise, context);
+  keep_large_components(raw, !partial);
+  const std::string name = "the scan of the " + exact.kind;
+  if (raw.triangles.empty()) throw MeshError(name + ": nothing was seen; more viewpoints or less noise show something");
+  const double share = partial ? std::min(1.0, area_of(raw) / area_of(exact.mesh)) : 1;
+  const auto faces = static_cast<Index>(std::max(4.0, std::round(share * settings.faces)));
   raw.input_faces = static_cast<Index>(raw.triangles.size());
   raw.face_origin.resize(raw.triangles.size());
   std::iota(raw.face_origin.begin(), raw.face_origin.end(), Index{0});
-  const std::string name = "the scan of the " + exact.kind;
-  if (settings.seen_from > 0) repair(raw, name);
+  if (partial) repair(raw, name);
   const Mesh surface(std::move(raw), name, &context);
-  const PreparedMesh prepared = apply_filters(surface, filters, context);
+  const PreparedMesh prepared = apply_filters(surface, filters_for(host, faces, settings.smoothing), context);
 
-  Sample made = scanned_truth(posed, prepared.view(), {rotation, extent.center(), to},
-                              settings.seen_from > 0 ? 3 * spacing : 0, context);
+  Sample made =
+      scanned_truth(posed, prepared.view(), {rotation, extent.center(), to}, partial ? 3 * spacing : 0, context);
   made.scan = ScanRecord{.viewpoints = settings.viewpoints,
                          .seen_from = settings.seen_from,
                          .noise_rel = settings.noise_rel,

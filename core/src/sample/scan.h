@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pipeline/stations.h"
 #include "sample/sample.h"
 
 namespace toposcope {
@@ -18,25 +17,23 @@ struct ScanSettings {
   std::uint64_t seed = 1;     ///< of pose, noise and choice of viewpoints
 };
 
-/// The steps from the raw surface to the mesh: the filters `taubin` and `normalise`, with a quick thinning between
-/// them. \throw PluginError, UsageError  as PluginHost does
-std::vector<Stations::Filter> scan_filters(PluginHost& host, const ScanSettings& settings);
-
 /// An object as make_sample makes it, but with the mesh that a scan wants: its vertices lie on the exact surface, as do
 /// its edges' middles within a hundredth of the thinnest part. \throw UsageError  as make_sample does
 Sample make_scan_target(const SampleRequest& request, Context& context);
 
 /// Turns the object at random, moves it by up to its diagonal along each axis, looks at it from viewpoints at three
-/// times its radius, fuses the depths on a grid, extracts and filters the surface. The grid's spacing is half the
-/// thinnest part, less where as many faces demand it, but at least twice the noise.
+/// times its radius, fuses the depths on a grid, extracts the surface, and applies the filters `taubin` and
+/// `normalise`, with a quick thinning between them. The grid's spacing is half the thinnest part, or less where as many
+/// faces demand it.
 ///
 /// Truth: features move with the object (parameters whose length is a multiple of three are points, or directions when
 /// they are called normal, axis or direction); `points` stay exact; `vertices` are the nearest; a face's part is that
 /// of the nearest exact face. When seen from some viewpoints only, points more than three grid spacings from what is
-/// left are dropped, and of a feature of which less than `least_share` is left all. \param filters  from scan_filters,
-/// with the same settings \throw UsageError  settings out of range; MeshError  nothing was seen
-Sample scan(const Sample& exact, const ScanSettings& settings, std::span<const Stations::Filter> filters,
-            Context& context);
+/// left are dropped, and of a feature of which less than `least_share` is left all.
+///
+/// \param host  has the two filters
+/// \throw UsageError  settings out of range; MeshError  nothing was seen; PluginError  a filter is missing
+Sample scan(const Sample& exact, const ScanSettings& settings, PluginHost& host, Context& context);
 
 inline constexpr double least_share = 0.25;
 
