@@ -44,10 +44,11 @@ struct SampleFeature {
 
 /// How an object was scanned (scan.h).
 struct ScanRecord {
-  Index viewpoints = 0, seen_from = 0;  ///< seen_from 0: all
-  double noise_rel = 0;                 ///< standard deviation along the ray, in diagonals of the object's box
-  int smoothing = 0;                    ///< passes of Taubin's filter
-  double spacing = 0;                   ///< of the grid
+  Index viewpoints = 0;
+  bool partial = false;  ///< what they did not see is missing
+  double noise_rel = 0;  ///< standard deviation along the ray, in diagonals of the object's box
+  int smoothing = 0;     ///< passes of Taubin's filter
+  double spacing = 0;    ///< of the grid
   std::array<Vec3, 3> rotation = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};  ///< rows: scan = rotation * object
   Vec3 translation = Vec3::Zero();                                               ///< + translation
 };

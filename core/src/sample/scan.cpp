@@ -25,9 +25,9 @@ void check(const ScanSettings& settings) {
   const auto refuse = [](const std::string& what) { throw UsageError("scan: " + what); };
   if (settings.viewpoints < 4 || settings.viewpoints > 1000)
     refuse(fmt::format("viewpoints is {}: it must lie between 4 and 1000; the default is 60", settings.viewpoints));
-  if (settings.seen_from > settings.viewpoints)
-    refuse(fmt::format("seen from {} viewpoints of {}: ask for fewer, or for more viewpoints", settings.seen_from,
-                       settings.viewpoints));
+  if (settings.seen_from > 1000)
+    refuse(
+        fmt::format("seen from {} viewpoints: it must be at most 1000; 4 show most of one side", settings.seen_from));
   if (!(settings.noise_rel >= 0 && settings.noise_rel <= 0.02))
     refuse(fmt::format("noise is {} box diagonals: it must lie between 0 and 0.02; the default is 0.0005",
                        settings.noise_rel));
@@ -57,10 +57,10 @@ double area_of(const TriangleSoup& mesh) {
   return area;
 }
 
-/// The N directions nearest to a random one.
+/// All around, or over the half sphere about `side`.
 std::vector<Vec3> chosen_directions(const ScanSettings& settings, const Vec3& side) {
-  std::vector<Vec3> directions = spread_directions(settings.viewpoints);
-  if (settings.seen_from == 0) return directions;
+  if (settings.seen_from == 0) return spread_directions(settings.viewpoints);
+  std::vector<Vec3> directions = spread_directions(2 * settings.seen_from);
   std::stable_sort(directions.begin(), directions.end(),
                    [&](const Vec3& a, const Vec3& b) { return a.dot(side) > b.dot(side); });
   directions.resize(settings.seen_from);
@@ -144,8 +144,8 @@ Sample scan(const Sample& exact, const ScanSettings& settings, PluginHost& host,
 
   Sample made =
       scanned_truth(posed, prepared.view(), {rotation, extent.center(), to}, partial ? 3 * spacing : 0, context);
-  made.scan = ScanRecord{.viewpoints = settings.viewpoints,
-                         .seen_from = settings.seen_from,
+  made.scan = ScanRecord{.viewpoints = partial ? settings.seen_from : settings.viewpoints,
+                         .partial = partial,
                          .noise_rel = settings.noise_rel,
                          .smoothing = settings.smoothing,
                          .spacing = spacing,

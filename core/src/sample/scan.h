@@ -9,9 +9,10 @@ class PluginHost;
 
 /// What a scanner and the dissertation's chain (2.4) make of an object.
 struct ScanSettings {
-  Index faces = 20000;        ///< of the mesh
-  Index viewpoints = 60;      ///< spread evenly around the object
-  Index seen_from = 0;        ///< 0: all of them; else those nearest to a random direction, and the mesh stays open
+  Index faces = 20000;    ///< of the mesh
+  Index viewpoints = 60;  ///< spread evenly around the object
+  Index seen_from = 0;  ///< above 0: so many viewpoints instead, spread over the half sphere about a random direction,
+                        ///< and the mesh stays open
   double noise_rel = 0.0005;  ///< standard deviation of the noise along the ray, in diagonals of the object's box
   int smoothing = 3;          ///< passes of Taubin's filter
   std::uint64_t seed = 1;     ///< of pose, noise and choice of viewpoints
