@@ -76,6 +76,8 @@ struct SampleOptions : CommonOptions {
   std::uint32_t viewpoints = 60, seen_from = 0;
   double scan_noise = 0.0005;
   int smoothing = 3;
+  std::string preset;
+  bool random = false;
 };
 
 /// Each returns the exit code; errors leave as exceptions (base/errors.h).

@@ -138,7 +138,7 @@ int dispatch(int argc, char** argv) {
 
   SampleOptions sample_options;
   CLI::App* sample_app = app.add_subcommand("sample", "make a parametric object and its truth");
-  sample_app->add_option("kind", sample_options.kind, "cup, tee; see --list");
+  sample_app->add_option("kind", sample_options.kind, "cup, tee, ...; see --list");
   sample_app->add_flag("--list", sample_options.list, "list the kinds and their parameters");
   sample_app->add_option("-o,--out", sample_options.out, "mesh to write; its truth goes beside it")->type_name("MESH");
   sample_app->add_option("--faces", sample_options.faces, "number of faces")->capture_default_str();
@@ -146,7 +146,9 @@ int dispatch(int argc, char** argv) {
       ->capture_default_str();
   std::vector<std::string> assignments;
   sample_app->add_option("--set", assignments, "one parameter: name=value")->type_name("P=V")->allow_extra_args(false);
-  sample_app->add_option("--seed", sample_options.seed, "seed of noise and pose")->capture_default_str();
+  sample_app->add_option("--preset", sample_options.preset, "named parameters to start from; see --list");
+  sample_app->add_flag("--random", sample_options.random, "draw the parameters that --set does not give");
+  sample_app->add_option("--seed", sample_options.seed, "seed of noise, pose and --random")->capture_default_str();
   sample_app->add_option("--threads", sample_options.threads, "threads; 0: one per processor")
       ->check(CLI::Range(0U, 1024U))
       ->capture_default_str();

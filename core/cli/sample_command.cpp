@@ -19,8 +19,9 @@ void list_kinds() {
   for (const SampleKind& kind : sample_kinds()) {
     fmt::print("{}: {}\n", kind.name, kind.summary);
     for (const OptionRow& row : kind.parameters)
-      fmt::print("  {:<20} {:<9} {} [{}; default {}]\n", row.name, row.unit, row.meaning, describe_constraint(row),
-                 row.default_value);
+      fmt::print("  {:<22} {:<8} {} [{}; default {}; --random: {}]\n", row.name, row.unit, row.meaning,
+                 describe_constraint(row), row.default_value, describe_range(kind, row.name));
+    for (const SamplePreset& preset : kind.presets) fmt::print("  --preset {:<13} {}\n", preset.name, preset.summary);
     fmt::print("\n");
   }
 }
@@ -35,8 +36,9 @@ SampleRequest request_of(const SampleOptions& options) {
   const auto kind =
       std::find_if(kinds.begin(), kinds.end(), [&](const SampleKind& k) { return k.name == options.kind; });
   for (const auto& [name, value] : options.parameters)
-    request.parameters[name] =
-        kind == kinds.end() ? 0 : check_option(kind->parameters, name, value, "sample '" + kind->name + "'").number;
+    request.parameters[name] = kind == kinds.end() ? 0 : sample_parameter(*kind, name, value);
+  request.preset = options.preset;
+  request.random = options.random;
   return request;
 }
 

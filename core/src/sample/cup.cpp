@@ -1,120 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A cup: a hollow cone of revolution about z, standing on z = 0, with a D-shaped handle on the side of +x.
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
+#include "sample/cup.h"
 
-#include "sample/solid.h"
+#include <Eigen/Geometry>
 
 namespace toposcope {
 
 namespace {
 
-constexpr const char* kind = "cup";
-
-struct Cup {
-  explicit Cup(const ParameterValues& v)
-      : height(parameter(v, "height")),
-        top_radius(parameter(v, "top_radius")),
-        bottom_radius(parameter(v, "bottom_radius")),
-        wall(parameter(v, "wall")),
-        bottom(parameter(v, "bottom_thickness")),
-        lip(parameter(v, "lip_radius")),
-        foot(parameter(v, "foot_fillet")),
-        inner(parameter(v, "inner_fillet")),
-        has_handle(parameter(v, "handle") != 0),
-        handle_height(parameter(v, "handle_height")),
-        reach(parameter(v, "handle_reach")),
-        thickness(parameter(v, "handle_thickness")),
-        handle_center(parameter(v, "handle_center")),
-        fillet(parameter(v, "handle_fillet")) {}
-
-  double height, top_radius, bottom_radius, wall, bottom, lip, foot, inner;
-  bool has_handle;
-  double handle_height, reach, thickness, handle_center, fillet;
-
-  double slant() const { return std::atan2(top_radius - bottom_radius, height); }
-  double outer_radius(double z) const { return bottom_radius + (top_radius - bottom_radius) * z / height; }
-  double inner_radius(double z) const { return outer_radius(z) - wall / std::cos(slant()); }
-  /// Length taken from each leg of a corner of turning angle `turn` by an arc.
-  static double tangent(double radius, double turn) { return radius * std::tan(turn / 2); }
+/// The body's section and the places in it that bear features.
+struct Section {
+  PlanePath path;
+  std::size_t foot, lip;  ///< corners: of bottom and side; the outer one of the lip
+  double flat;            ///< radius to which the bottom is flat
 };
 
-void check_body(const Cup& c) {
-  const double slack = 1 + 1e-9;
-  const double size = 2 * std::max(c.top_radius, c.bottom_radius);
-  require(c.wall >= 0.02 * std::max(size, c.height), kind, "wall", c.wall,
-          "the wall must be at least 2 % of the cup's largest side", "give a thicker wall");
-  require(std::abs(c.slant()) <= pi / 4, kind, "top_radius", c.top_radius, "the side may lean at most 45 degrees",
-          "bring top_radius and bottom_radius closer or raise height");
-  require(c.bottom >= 0.5 * c.wall && c.bottom <= 0.5 * c.height, kind, "bottom_thickness", c.bottom,
-          "it must lie between wall / 2 and height / 2", "choose it near wall");
-  require(c.lip >= 0.1 * c.wall && c.lip <= 0.5 * c.wall * slack, kind, "lip_radius", c.lip,
-          "it must lie between wall / 10 and wall / 2 (fully round)", "choose it in that range");
-  require(c.inner_radius(c.bottom) > 0 && c.inner_radius(c.height) > 0, kind, "wall", c.wall,
-          "the wall must be thinner than the radius", "give a thinner wall or larger radii");
-  require(c.foot >= 0.1 * c.wall, kind, "foot_fillet", c.foot, "it must be at least wall / 10", "give a larger one");
-  const double foot_turn = pi / 2 - c.slant();
-  require(Cup::tangent(c.foot, foot_turn) <= 0.9 * c.bottom_radius && Cup::tangent(c.foot, foot_turn) <= 0.4 * c.height,
-          kind, "foot_fillet", c.foot, "the rounded foot must leave a flat bottom and a straight side",
-          "give a smaller one");
-  require(c.foot * (1 - std::sqrt(0.5)) <= 0.7 * std::min(c.wall, c.bottom), kind, "foot_fillet", c.foot,
-          "it must not cut through wall and bottom", "give a smaller one or a thicker wall");
-  require(c.inner >= 0.1 * c.wall && Cup::tangent(c.inner, foot_turn) <= 0.9 * c.inner_radius(c.bottom) &&
-              Cup::tangent(c.inner, foot_turn) <= 0.4 * (c.height - c.bottom),
-          kind, "inner_fillet", c.inner, "it must be at least wall / 10 and leave a flat bottom and a straight wall",
-          "choose it in that range");
-}
-
-void check_handle(const Cup& c) {
-  const double half = c.handle_height / 2, around = c.thickness + c.fillet;
-  require(c.thickness >= 0.5 * c.wall, kind, "handle_thickness", c.thickness, "it must be at least wall / 2",
-          "give a thicker handle");
-  require(c.fillet >= 0.1 * c.thickness, kind, "handle_fillet", c.fillet, "it must be at least handle_thickness / 10",
-          "give a larger one");
-  require(half > around, kind, "handle_height", c.handle_height,
-          "half of it must exceed handle_thickness + handle_fillet: the handle needs a hole",
-          "give a higher or thinner handle");
-  require(c.reach > around + 0.5 * c.thickness, kind, "handle_reach", c.reach,
-          "it must exceed 1.5 handle_thickness + handle_fillet: the handle needs a hole", "let it reach further");
-  const double top = c.height - c.wall - around, bottom = std::max(c.foot, c.bottom + c.inner) + around;
-  require(c.handle_center + half <= top && c.handle_center - half >= bottom, kind, "handle_center", c.handle_center,
-          "both ends of the handle and their fillets must lie between the foot and the lip",
-          "move the handle or lower handle_height, now from " + std::to_string(c.handle_center - half) + " to " +
-              std::to_string(c.handle_center + half) + " where " + std::to_string(bottom) + " to " +
-              std::to_string(top) + " is free");
-  require(around + c.fillet < 0.7 * c.outer_radius(c.handle_center - half) &&
-              around + c.fillet < 0.7 * c.outer_radius(c.handle_center + half),
-          kind, "handle_thickness", c.thickness, "the handle must be narrower than the cup", "give a thinner handle");
-}
-
-PlanePath body_profile(const Cup& c) {
-  return PlanePath({{0, 0},
-                    {c.bottom_radius, 0, c.foot},
-                    {c.top_radius, c.height, c.lip},
-                    {c.inner_radius(c.height), c.height, c.lip},
-                    {c.inner_radius(c.bottom), c.bottom, c.inner},
-                    {0, c.bottom}});
+/// \throw UsageError  roundings that leave no room for each other
+Section body_section(const Cup& c) {
+  std::vector<Corner> corners = {{0, c.recess()}};
+  double flat = 0;
+  if (c.has_ring) {
+    const double inside = c.bottom_radius - c.ring_width;
+    const double rounding = std::min(0.3 * c.ring_width, 0.45 * c.ring_depth);
+    corners.push_back({inside, c.recess(), rounding});
+    corners.push_back({inside, 0, rounding});
+    flat = inside - rounding;
+  }
+  const std::size_t foot = corners.size();
+  for (const Corner& corner : c.side.corners(0, 0, c.height)) corners.push_back(corner);
+  const std::size_t lip = corners.size() - 1;
+  std::vector<Corner> inside = c.side.corners(c.wall, c.floor(), c.height);
+  corners.insert(corners.end(), inside.rbegin(), inside.rend());
+  corners[foot].radius = c.foot;
+  corners[lip].radius = corners[lip + 1].radius = c.lip;
+  corners.back().radius = c.inner;
+  corners.push_back({0, c.floor()});
+  try {
+    PlanePath path(corners);
+    if (!c.has_ring) flat = path.arc_begin(foot).x();
+    return {std::move(path), foot, lip, flat};
+  } catch (const std::logic_error&) {
+    require(false, "cup", "foot_fillet", c.foot,
+            "the roundings of foot, inner bottom, side and lip must leave room for each other", "make one smaller");
+    throw;
+  }
 }
 
 /// What the cup holds, and the room above it.
 PlanePath cavity_profile(const Cup& c) {
-  const double above = 2 * c.height;
-  return PlanePath(
-      {{0, c.bottom}, {c.inner_radius(c.bottom), c.bottom, c.inner}, {c.inner_radius(above), above}, {0, above}});
-}
-
-/// Two legs square to the axis and a grip along it, rounded; starts and ends within the cup.
-PlanePath handle_path(const Cup& c) {
-  const double low = c.handle_center - c.handle_height / 2, high = c.handle_center + c.handle_height / 2;
-  const double grip = c.outer_radius(c.handle_center) + c.reach;
-  const double leg = grip - std::max(c.outer_radius(low), c.outer_radius(high));
-  require(leg > c.thickness + c.fillet, kind, "handle_reach", c.reach,
-          "the grip must clear the widest end of a leaning side", "let it reach further");
-  const double bend = std::min(c.handle_height / 2, leg) * 0.85;
-  return PlanePath(
-      {{0.5 * c.outer_radius(high), high}, {grip, high, bend}, {grip, low, bend}, {0.5 * c.outer_radius(low), low}});
+  std::vector<Corner> corners = {{0, c.floor()}};
+  for (const Corner& corner : c.side.corners(c.wall, c.floor(), 1.5 * c.height)) corners.push_back(corner);
+  corners[1].radius = c.inner;
+  corners.back().x = std::max(corners.back().x, 0.1 * c.top_radius);
+  corners.push_back({0, 1.5 * c.height});
+  return PlanePath(corners);
 }
 
 /// The ring where the fillet is as far from the wall as from the handle, around one end of the handle.
@@ -136,13 +76,13 @@ std::vector<Vec3> fillet_ring(const Cup& c, const Solid& solid, const Implicit& 
   return ring;
 }
 
-SampleFeature bottom_feature(double radius) {
-  SampleFeature feature{"bottom", "plane", {{"point", {0, 0, 0}}, {"normal", {0, 0, -1}}}, {}, {}, {}};
+SampleFeature bottom_feature(double radius, double height) {
+  SampleFeature feature{"bottom", "plane", {{"point", {0, 0, height}}, {"normal", {0, 0, -1}}}, {}, {}, {}};
   constexpr int count = 40;  // sunflower: an even cover of the disc
   const double golden = pi * (3 - std::sqrt(5.0));
   for (int i = 0; i < count; ++i) {
     const double r = radius * std::sqrt((i + 0.5) / count);
-    feature.points.emplace_back(r * std::cos(golden * i), r * std::sin(golden * i), 0);
+    feature.points.emplace_back(r * std::cos(golden * i), r * std::sin(golden * i), height);
   }
   return feature;
 }
@@ -152,7 +92,7 @@ SampleFeature handle_feature(const Cup& c, const Solid& solid, const Implicit& b
   std::vector<double> ends;
   for (const bool upper : {true, false}) {
     const double z = c.handle_center + (upper ? 0.5 : -0.5) * c.handle_height;
-    const Vec3 end(c.outer_radius(z), 0, z);
+    const Vec3 end(c.side.radius(z), 0, z);
     ends.insert(ends.end(), {end.x(), end.y(), end.z()});
     const std::vector<Vec3> ring = fillet_ring(c, solid, body, handle, end);
     std::vector<Index> members;
@@ -168,48 +108,65 @@ SampleFeature handle_feature(const Cup& c, const Solid& solid, const Implicit& b
 
 }  // namespace
 
-SampleKind cup_kind() {
-  return {
-      "cup",
-      "a cup of revolution about z, standing on z = 0, with a handle on the side of +x",
-      {length_parameter("height", "95", "0", "height of the cup"),
-       length_parameter("top_radius", "41", "0", "outer radius at the top, before the lip is rounded"),
-       length_parameter("bottom_radius", "35", "0", "outer radius at the bottom, before the foot is rounded"),
-       length_parameter("wall", "4", "0", "thickness of the wall, square to it"),
-       length_parameter("bottom_thickness", "5", "0", "thickness of the bottom"),
-       length_parameter("lip_radius", "2", "0", "radius that rounds both edges of the lip; wall / 2: a half circle"),
-       length_parameter("foot_fillet", "3", "0", "radius that rounds the edge of bottom and side"),
-       length_parameter("inner_fillet", "6", "0", "radius between the inner wall and the inner bottom"),
-       switch_parameter("handle", "true", "whether there is a handle"),
-       length_parameter("handle_height", "54", "0", "distance between the centre lines of the handle's legs"),
-       length_parameter("handle_reach", "28", "0", "distance from the wall to the centre line of the grip"),
-       length_parameter("handle_thickness", "5", "0", "radius of the handle's round cross-section"),
-       length_parameter("handle_center", "50", "0", "height of the middle of the handle"),
-       length_parameter("handle_fillet", "4", "0", "radius of the fillet where the handle meets the wall")}};
+PlanePath handle_path(const Cup& c) {
+  const double low = c.handle_center - c.handle_height / 2, high = c.handle_center + c.handle_height / 2;
+  const double grip = c.side.radius(c.handle_center) + c.reach;
+  const double near_high = c.side.radius(high), near_low = c.side.radius(low);
+  const double leg = grip - std::max(near_high, near_low);
+  require(leg > c.thickness + c.fillet, "cup", "handle_reach", c.reach,
+          "the grip must clear the widest end of a leaning side", "let it reach further");
+  const double most = std::min(c.handle_height / 2, leg);
+  const double bend = c.shape == HandleShape::round    ? 0.99 * most
+                      : c.shape == HandleShape::square ? std::min(1.3 * c.thickness, 0.85 * most)
+                                                       : 0.85 * most;
+  const Corner start{0.5 * near_high, high}, end{0.5 * near_low, low};
+  if (c.shape != HandleShape::ear) return PlanePath({start, {grip, high, bend}, {grip, low, bend}, end});
+  const Vec2 outer(grip, high), lower(near_low + std::max(0.4 * leg, 1.02 * (c.thickness + c.fillet)), low);
+  const double slope = std::atan2(c.handle_height, grip - lower.x());  // of the long side that leads back to the cup
+  const double length = (outer - lower).norm();
+  const double above = std::min(0.9 * leg, 0.6 * length) * std::tan(slope / 2);  // turns by 180 degrees less the slope
+  const double below = std::min(0.35 * length, lower.x() - near_low) / std::tan(slope / 2);
+  return PlanePath({start, {grip, high, above}, {lower.x(), low, below}, end});
+}
+
+double handle_gap(const Cup& c) {
+  const PlanePath path = handle_path(c);
+  const double length = c.handle_height - 2 * (c.thickness + c.fillet);
+  double gap = std::numeric_limits<double>::infinity();
+  constexpr int steps = 16;
+  for (int i = 4; i <= steps - 4; ++i) {
+    const double z = c.handle_center + length * (static_cast<double>(i) / steps - 0.5);
+    const Vec2 wall(c.side.radius(z), z);
+    gap = std::min(gap, (path.closest(wall).point - wall).norm() - c.thickness);
+  }
+  return gap;
 }
 
 Solid make_cup(const ParameterValues& parameters) {
   const Cup c(parameters);
-  check_body(c);
-  if (c.has_handle) check_handle(c);
-
-  const PlanePath profile = body_profile(c);
-  const Implicit body = revolve(profile, Vec3::Zero(), Vec3::UnitZ());
-  const double widest = std::max(c.top_radius, c.bottom_radius);
+  check_cup(c);
+  const Section section = body_section(c);
+  const Implicit body = revolve(section.path, Vec3::Zero(), Vec3::UnitZ());
+  const double widest = c.side.widest();
   Solid solid;
   solid.surface = body;
   solid.low = Vec3(-widest, -widest, 0);
   solid.high = Vec3(widest, widest, c.height);
   solid.thinnest = std::min(c.wall, c.bottom);
   solid.thinnest_parameter = c.wall <= c.bottom ? "wall" : "bottom_thickness";
+  if (c.has_ring && c.ring_width < solid.thinnest) {
+    solid.thinnest = c.ring_width;
+    solid.thinnest_parameter = "ring_width";
+  }
+  solid.gap = c.inner_radius(c.floor());
   solid.part_names = {"body"};
   solid.part_of = [](const Vec3&) { return std::size_t{0}; };
 
-  const Vec2 lip = 0.5 * (profile.arc_end(2) + profile.arc_begin(3));
-  const Vec2 foot = profile.crest(1);
+  const Vec2 lip = 0.5 * (section.path.arc_end(section.lip) + section.path.arc_begin(section.lip + 1));
+  const Vec2 foot = section.path.crest(section.foot);
   solid.features = {circle_feature("rim", Vec3(0, 0, lip.y()), Vec3::UnitZ(), lip.x()),
                     circle_feature("bottomEdge", Vec3(0, 0, foot.y()), Vec3::UnitZ(), foot.x()),
-                    bottom_feature(0.95 * profile.arc_begin(1).x())};
+                    bottom_feature(0.95 * section.flat, c.recess())};
   if (!c.has_handle) {
     solid.features.push_back({"handleCon", "line-group", {}, {}, {}, {}});
     return solid;
@@ -219,8 +176,9 @@ Solid make_cup(const ParameterValues& parameters) {
   // The tube runs on into the cavity, so that it meets the wall as if it went through; the cavity cuts it off there.
   const Implicit cavity = revolve(cavity_profile(c), Vec3::Zero(), Vec3::UnitZ());
   solid.surface = subtract(unite(body, tube, c.fillet), cavity);
-  solid.high.x() = std::max(widest, c.outer_radius(c.handle_center) + c.reach + c.thickness);
+  solid.high.x() = std::max(widest, c.side.radius(c.handle_center) + c.reach + c.thickness);
   solid.thinnest = std::min(solid.thinnest, 2 * c.thickness);
+  solid.gap = std::min(solid.gap, handle_gap(c));
   solid.part_names = {"body", "handle"};
   solid.part_of = [body, tube, cavity, wall = c.wall](const Vec3& p) -> std::size_t {
     return tube(p).value < body(p).value && cavity(p).value > 0.5 * wall ? 1 : 0;

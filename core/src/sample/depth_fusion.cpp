@@ -121,14 +121,18 @@ class Projector {
 };
 
 struct Thresholds {
-  float front, behind, window, doubt, carved;
-  explicit Thresholds(const DepthFusion& fusion)
-      // Beside a node that lies inside, those outside are less than a cell's diagonal away.
-      : front(static_cast<float>(1.75 * fusion.spacing + 3 * fusion.noise)),
-        behind(static_cast<float>(fusion.behind)),
-        window(static_cast<float>(0.25 * fusion.spacing + 6 * fusion.noise)),
-        doubt(static_cast<float>(0.25 * fusion.spacing + 3 * fusion.noise)),
-        carved(static_cast<float>(0.5 * fusion.spacing)) {}
+  float front;   ///< free space begins here; beside a node inside the net those outside are less than a cell's diagonal
+                 ///< away
+  float behind;  ///< a surface seen says nothing of what is deeper
+  float window;  ///< measurements so far behind the foremost one count as of the same surface
+  float doubt;   ///< and so deep as of another one, when other views saw through
+  float carved;  ///< value of a node that was seen through and not measured
+  explicit Thresholds(const DepthFusion& f)
+      : front(static_cast<float>(1.75 * f.spacing + f.level + 3 * f.noise)),
+        behind(static_cast<float>(1.7 * f.spacing)),
+        window(static_cast<float>(0.25 * f.spacing + 6 * f.noise)),
+        doubt(static_cast<float>(0.25 * f.spacing + 3 * f.noise)),
+        carved(static_cast<float>(0.5 * f.spacing + f.level)) {}
 };
 
 /// What the views say of a batch of points that lie close together.
@@ -201,7 +205,9 @@ class BlockFusion {
   static constexpr std::size_t side = 4;
 
   BlockFusion(const std::vector<Projector>& views, const DepthFusion& fusion)
-      : points_(side * side * side), batch_(views, fusion, side * side * side) {}
+      : points_(side * side * side),
+        batch_(views, fusion, side * side * side),
+        level_(static_cast<float>(fusion.level)) {}
 
   void fuse(NodeGrid& grid, std::size_t x0, std::size_t y0, std::size_t z0) {
     const Vec3 center = grid.position(x0, y0, z0, Vec3::Constant((side - 1) / 2.0));
@@ -215,12 +221,13 @@ class BlockFusion {
     i = 0;
     for (std::size_t z = z0; z < z0 + side; ++z)
       for (std::size_t y = y0; y < y0 + side; ++y)
-        for (std::size_t x = x0; x < x0 + side; ++x) grid.values[grid.node(x, y, z)] = batch_.value(i++);
+        for (std::size_t x = x0; x < x0 + side; ++x) grid.values[grid.node(x, y, z)] = batch_.value(i++) - level_;
   }
 
  private:
   PointBatch points_;
   BatchFusion batch_;
+  float level_;
 };
 
 /// Fills in nodes until no two cells' faces meet in an edge or a corner alone: the set of nodes inside is
@@ -340,7 +347,8 @@ Vec3 gradient_at(const NodeGrid& grid, const Vec3& point) {
   return gradient;
 }
 
-/// Moves vertices by the measured distance along the gradient: those of a surface net lie inside of bends. Vertices are
+/// Moves vertices by the measured distance along the gradient: those of a surface net lie inside of bends, or as
+/// far outside as it was laid. Vertices are
 /// taken by blocks of cells, so that each is asked of few views. Returns the gradients.
 std::vector<Vec3> settle(std::vector<Vec3>& positions, const NodeGrid& grid, const std::vector<Projector>& views,
                          const DepthFusion& fusion, Context& context) {
@@ -376,7 +384,7 @@ std::vector<Vec3> settle(std::vector<Vec3>& positions, const NodeGrid& grid, con
       for (std::size_t i = 0; i < count; ++i) {
         Vec3& position = positions[members[i]];
         const Vec3 direction = directions[members[i]] = gradient_at(grid, position).stableNormalized();
-        if (batch.measured(i) && std::abs(batch.measurement(i)) <= 0.5 * grid.spacing)
+        if (batch.measured(i) && std::abs(batch.measurement(i)) <= 0.5 * grid.spacing + fusion.level)
           position -= static_cast<double>(batch.measurement(i)) * direction;
       }
     }
@@ -388,7 +396,7 @@ std::vector<Vec3> settle(std::vector<Vec3>& positions, const NodeGrid& grid, con
 
 TriangleSoup fuse_depths(std::span<const DepthView> views, const DepthFusion& fusion, const Vec3& low, const Vec3& high,
                          Context& context) {
-  const Vec3 margin = Vec3::Constant(3 * fusion.spacing);
+  const Vec3 margin = Vec3::Constant(3 * fusion.spacing + fusion.level);
   NodeGrid grid = make_node_grid(low - margin, high + margin, fusion.spacing);
   const std::vector<Projector> projectors = projectors_of(views, context);
   constexpr std::size_t side = BlockFusion::side;

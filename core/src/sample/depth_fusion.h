@@ -11,7 +11,7 @@ namespace toposcope {
 /// How depth images are made into signed distances. Lengths.
 struct DepthFusion {
   double spacing = 0;  ///< of the grid
-  double behind = 0;   ///< a surface seen says nothing of what is deeper behind it; below the thinnest wall
+  double level = 0;    ///< the net is laid so far outside the surface, so that parts thinner than a cell come out whole
   double noise = 0;    ///< standard deviation of the depths
 };
 

@@ -94,6 +94,24 @@ Implicit subtract(Implicit a, Implicit b, double rounding) {
   return intersect(std::move(a), complement(std::move(b)), rounding);
 }
 
+Implicit mirror_y(Implicit a) {
+  return [a = std::move(a)](const Vec3& point) -> Distance {
+    Distance d = a({point.x(), std::abs(point.y()), point.z()});
+    if (point.y() < 0) d.gradient.y() = -d.gradient.y();
+    return d;
+  };
+}
+
+Implicit within_box(Implicit a, const Vec3& low, const Vec3& high, double margin) {
+  return [a = std::move(a), low, high, margin](const Vec3& point) -> Distance {
+    const Vec3 away = point - point.cwiseMax(low).cwiseMin(high);
+    const double distance2 = away.squaredNorm();
+    if (distance2 <= margin * margin) return a(point);
+    const double distance = std::sqrt(distance2);
+    return {distance, away / distance};
+  };
+}
+
 Vec3 project(const Implicit& surface, Vec3 point, double scale) {
   for (int i = 0; i < 30; ++i) {
     const Distance d = surface(point);

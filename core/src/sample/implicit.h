@@ -40,6 +40,13 @@ Implicit unite(Implicit a, Implicit b, double fillet = 0);
 Implicit intersect(Implicit a, Implicit b, double rounding = 0);
 Implicit subtract(Implicit a, Implicit b, double rounding = 0);
 
+/// The solid on the side y >= 0 and its mirror image. \pre what lies at y < 0 of `a` is its own mirror image
+Implicit mirror_y(Implicit a);
+
+/// The same surface, cheaper far from it: farther than `margin` from the box, which contains the solid, the distance is
+/// that to the box, which is a lower bound. `margin` must exceed the fillets that the solid is united with.
+Implicit within_box(Implicit a, const Vec3& low, const Vec3& high, double margin);
+
 /// Moves a point to the surface along the gradient. The residual falls below 1e-12 of `scale` unless the
 /// function is not a distance there.
 Vec3 project(const Implicit& surface, Vec3 point, double scale);

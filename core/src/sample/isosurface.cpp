@@ -12,25 +12,39 @@ namespace toposcope {
 
 namespace {
 
-constexpr std::size_t block = 8;
+constexpr std::size_t block = 16;
+constexpr double steepest = 1.25;  ///< change of the function per unit of length
 constexpr Index none = std::numeric_limits<Index>::max();
 
-void fill(NodeGrid& grid, const Implicit& surface, Context& context) {
+/// Fills a cube of nodes: with its centre's value where that tells the sign of them all and none is next to the
+/// surface, else part by part.
+void fill_cube(NodeGrid& grid, const Implicit& surface, double level, const std::array<std::size_t, 3>& at,
+               std::size_t side) {
+  const auto& [x0, y0, z0] = at;
+  if (side == 1) {
+    grid.values[grid.node(x0, y0, z0)] = static_cast<float>(surface(grid.position(x0, y0, z0)).value - level);
+    return;
+  }
+  const double half = static_cast<double>(side - 1) / 2;
+  const double center = surface(grid.position(x0, y0, z0, Vec3::Constant(half))).value - level;
+  if (std::abs(center) > steepest * grid.spacing * (half * std::sqrt(3.0) + 1)) {
+    for (std::size_t z = z0; z < z0 + side; ++z)
+      for (std::size_t y = y0; y < y0 + side; ++y)
+        std::fill_n(grid.values.begin() + static_cast<std::ptrdiff_t>(grid.node(x0, y, z)), side,
+                    static_cast<float>(center));
+    return;
+  }
+  for (std::size_t c = 0; c < 8; ++c)
+    fill_cube(grid, surface, level, {x0 + (c & 1) * side / 2, y0 + (c >> 1 & 1) * side / 2, z0 + (c >> 2) * side / 2},
+              side / 2);
+}
+
+void fill(NodeGrid& grid, const Implicit& surface, double level, Context& context) {
   const std::array<std::size_t, 3> blocks = {grid.size[0] / block, grid.size[1] / block, grid.size[2] / block};
-  // A block whose centre is farther away than its corners has one sign; the block's last cells reach one node further.
-  const double reach = 1.25 * grid.spacing * (block + 1) * std::sqrt(3.0) / 2;
-  context.parallel_for(blocks[0] * blocks[1] * blocks[2], 16, [&](std::size_t first, std::size_t last) {
-    for (std::size_t b = first; b < last; ++b) {
-      const std::size_t x0 = b % blocks[0] * block, y0 = b / blocks[0] % blocks[1] * block,
-                        z0 = b / (blocks[0] * blocks[1]) * block;
-      const Vec3 half = Vec3::Constant((block - 1) / 2.0);
-      const double center = surface(grid.position(x0, y0, z0, half)).value;
-      const bool far = std::abs(center) > reach;
-      for (std::size_t z = z0; z < z0 + block; ++z)
-        for (std::size_t y = y0; y < y0 + block; ++y)
-          for (std::size_t x = x0; x < x0 + block; ++x)
-            grid.values[grid.node(x, y, z)] = static_cast<float>(far ? center : surface(grid.position(x, y, z)).value);
-    }
+  context.parallel_for(blocks[0] * blocks[1] * blocks[2], 4, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b)
+      fill_cube(grid, surface, level,
+                {b % blocks[0] * block, b / blocks[0] % blocks[1] * block, b / (blocks[0] * blocks[1]) * block}, block);
   });
 }
 
@@ -133,9 +147,9 @@ TriangleSoup surface_net(const NodeGrid& grid, const PlaceVertices& place) {
 }
 
 TriangleSoup extract_isosurface(const Implicit& surface, const Vec3& low, const Vec3& high, double spacing,
-                                Context& context) {
-  NodeGrid grid = make_node_grid(low, high, spacing);
-  fill(grid, surface, context);
+                                double level, Context& context) {
+  NodeGrid grid = make_node_grid(low - Vec3::Constant(level), high + Vec3::Constant(level), spacing);
+  fill(grid, surface, level, context);
   return surface_net(grid, [&](std::vector<Vec3>& positions) {
     context.parallel_for(positions.size(), 1024, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v) positions[v] = project(surface, positions[v], spacing);

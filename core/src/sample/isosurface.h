@@ -25,7 +25,7 @@ struct NodeGrid {
   }
 };
 
-/// A grid from `low` to `high` and some nodes more; each size is a multiple of 8.
+/// A grid from `low` to `high` and some nodes more; each size is a multiple of 16.
 /// \throw std::length_error  more nodes than fit into 2^31
 NodeGrid make_node_grid(const Vec3& low, const Vec3& high, double spacing);
 
@@ -40,11 +40,13 @@ TriangleSoup surface_net(const NodeGrid& grid, const PlaceVertices& place);
 
 /// Surface nets (Gibson 1998) on a cubic grid of the given spacing: one vertex for each cell that the surface
 /// crosses, moved onto the surface along the gradient; one quadrilateral for each grid edge it crosses, cut along its
-/// shorter diagonal. `low` and `high` contain the solid. Cells far from the surface are skipped, which needs a function
-/// that changes by at most 1.25 per unit of length.
+/// shorter diagonal. `low` and `high` contain the solid. Cubes of the grid that are far from the surface are skipped
+/// whole, which needs a function that changes by at most 1.25 per unit of length.
+/// \param level  the net is laid at this distance outside the surface and then drawn onto it, so that edges thinner
+///        than a cell come out whole
 /// \throw std::length_error  more cells than fit into 2^31
 TriangleSoup extract_isosurface(const Implicit& surface, const Vec3& low, const Vec3& high, double spacing,
-                                Context& context);
+                                double level, Context& context);
 
 /// True where every directed edge occurs once, its opposite too, and the faces around each vertex form one fan.
 bool is_closed_manifold(const TriangleSoup& mesh);

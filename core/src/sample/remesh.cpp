@@ -2,10 +2,9 @@
 #include "sample/remesh.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModBaseT.hh>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace toposcope {
 
@@ -28,6 +27,8 @@ Point to_point(const Vec3& v) {
 Vec3 to_vec(const Point& p) {
   return {p[0], p[1], p[2]};
 }
+
+constexpr double rough = 1e-3;  ///< of an edge: how far from the surface vertices may be while they move
 
 /// How well a face at these corners follows the surface: cosine between its normal and the corners' normals.
 double agreement(const Point& a, const Point& b, const Point& c, const Point& normal) {
@@ -75,35 +76,35 @@ SizeField measure_sizes(const Halfedges& mesh, double greatest) {
   return sizes;
 }
 
-/// Shortest edges first, as measured by their target length.
-template <class MeshT>
-class ModTargetLength : public OpenMesh::Decimater::ModBaseT<MeshT> {
- public:
-  DECIMATING_MODULE(ModTargetLength, MeshT, TargetLength);
-
-  explicit ModTargetLength(MeshT& mesh) : Base(mesh, false) {}
-  void set_sizes(const SizeField* sizes) { sizes_ = sizes; }
-
-  float collapse_priority(const CollapseInfo& info) override {
-    MeshT& mesh = Base::mesh();
-    const Point& kept = mesh.normal(info.v1);
-    for (auto it = mesh.cvoh_iter(info.v0); it.is_valid(); ++it) {
-      const auto b = mesh.to_vertex_handle(*it), c = mesh.to_vertex_handle(mesh.next_halfedge_handle(*it));
-      if (b == info.v1 || c == info.v1) continue;
-      const Point normal = kept + mesh.normal(b) + mesh.normal(c);
-      if (agreement(info.p1, mesh.point(b), mesh.point(c), normal) < least_agreement)
-        return float(Base::ILLEGAL_COLLAPSE);
-    }
-    return static_cast<float>((info.p1 - info.p0).norm() / sizes_->along(mesh, mesh.edge_handle(info.v0v1)));
-  }
-
- private:
-  static constexpr double least_agreement = 0.5;
-  const SizeField* sizes_ = nullptr;
+struct Landing {
+  Vec3 point, normal;
 };
 
+/// A point near the surface moved onto it, to a part of an edge: exact only once the vertices have found their places.
+Landing land(const Implicit& surface, Vec3 point, double tolerance) {
+  for (int i = 0;; ++i) {
+    const Distance d = surface(point);
+    const double slope = d.gradient.squaredNorm();
+    if (std::abs(d.value) <= tolerance || slope < 1e-6 || i == 8) return {point, d.gradient / std::sqrt(slope)};
+    point -= d.value / slope * d.gradient;
+  }
+}
+
+/// Least agreement of the faces that a collapse would leave.
+double agreement_after(const Halfedges& mesh, Halfedges::HalfedgeHandle collapse) {
+  const auto gone = mesh.from_vertex_handle(collapse), kept = mesh.to_vertex_handle(collapse);
+  const Point &point = mesh.point(kept), &normal = mesh.normal(kept);
+  double least = 1;
+  for (auto it = mesh.cvoh_iter(gone); it.is_valid(); ++it) {
+    const auto b = mesh.to_vertex_handle(*it), c = mesh.to_vertex_handle(mesh.next_halfedge_handle(*it));
+    if (b == kept || c == kept) continue;
+    least = std::min(least, agreement(point, mesh.point(b), mesh.point(c), normal + mesh.normal(b) + mesh.normal(c)));
+  }
+  return least;
+}
+
 /// Cuts edges that are longer than their target at their middle.
-void split_edges(Halfedges& mesh, const Implicit& surface, double greatest, double scale) {
+void split_edges(Halfedges& mesh, const Implicit& surface, double greatest) {
   constexpr double longest = 1.5;
   const SizeField sizes = measure_sizes(mesh, greatest);
   std::vector<Halfedges::EdgeHandle> edges;
@@ -113,23 +114,63 @@ void split_edges(Halfedges& mesh, const Implicit& surface, double greatest, doub
     const auto h = mesh.halfedge_handle(e, 0);
     const Point& p = mesh.point(mesh.from_vertex_handle(h));
     const Point& q = mesh.point(mesh.to_vertex_handle(h));
-    const Vec3 middle = project(surface, to_vec(0.5 * (p + q)), scale);
-    const Vec3 normal = surface(middle).gradient.normalized();
-    const auto v = mesh.add_vertex(to_point(middle));
-    mesh.set_normal(v, to_point(normal));
+    const Landing middle = land(surface, to_vec(0.5 * (p + q)), rough * greatest);
+    const auto v = mesh.add_vertex(to_point(middle.point));
+    mesh.set_normal(v, to_point(middle.normal));
     mesh.split(e, v);
   }
 }
 
+/// Collapses edges, those shortest for their target first, in rounds: what a collapse has touched waits for the next.
+/// A priority queue would do it one by one, and spend most of its time on testing what it does not take.
 void decimate(Halfedges& mesh, double greatest, std::size_t faces) {
+  constexpr double least_agreement = 0.5;
+  constexpr double most = 0.35;  ///< of the edges are looked at in a round: the longer ones had better wait
+  struct Candidate {
+    double length;
+    int edge;
+    bool operator<(const Candidate& other) const {
+      return length != other.length ? length < other.length : edge < other.edge;
+    }
+  };
   const SizeField sizes = measure_sizes(mesh, greatest);
-  using Decimater = OpenMesh::Decimater::DecimaterT<Halfedges>;
-  Decimater decimater(mesh);
-  ModTargetLength<Halfedges>::Handle handle;
-  decimater.add(handle);
-  decimater.module(handle).set_sizes(&sizes);
-  decimater.initialize();
-  decimater.decimate_to_faces(0, faces);
+  std::size_t count = mesh.n_faces();
+  std::vector<Candidate> candidates;
+  std::vector<bool> touched(mesh.n_vertices());
+  const auto touch = [&](Halfedges::VertexHandle v) { touched[SizeField::index(v)] = true; };
+  for (std::size_t collapses = 1; count > faces && collapses > 0;) {
+    candidates.clear();
+    for (int e = 0; e < static_cast<int>(mesh.n_edges()); ++e) {
+      const Halfedges::EdgeHandle edge(e);
+      if (!mesh.status(edge).deleted())
+        candidates.push_back({mesh.calc_edge_length(edge) / sizes.along(mesh, edge), e});
+    }
+    const auto end = candidates.begin() + static_cast<std::ptrdiff_t>(most * static_cast<double>(candidates.size()));
+    std::partial_sort(candidates.begin(), end, candidates.end());
+    std::fill(touched.begin(), touched.end(), false);
+    collapses = 0;
+    for (auto it = candidates.begin(); it != end && count > faces; ++it) {
+      const Halfedges::EdgeHandle edge(it->edge);
+      if (mesh.status(edge).deleted()) continue;
+      auto best = mesh.halfedge_handle(edge, 0);
+      if (touched[SizeField::index(mesh.from_vertex_handle(best))] ||
+          touched[SizeField::index(mesh.to_vertex_handle(best))])
+        continue;
+      const auto other = mesh.opposite_halfedge_handle(best);
+      double agreed = agreement_after(mesh, best);
+      if (const double turned = agreement_after(mesh, other); turned > agreed) {
+        agreed = turned;
+        best = other;
+      }
+      if (agreed < least_agreement || !mesh.is_collapse_ok(best)) continue;
+      const auto kept = mesh.to_vertex_handle(best);
+      mesh.collapse(best);
+      touch(kept);
+      for (auto v = mesh.cvv_iter(kept); v.is_valid(); ++v) touch(*v);
+      count -= 2;
+      ++collapses;
+    }
+  }
   mesh.garbage_collection();
 }
 
@@ -158,8 +199,10 @@ std::size_t flip_edges(Halfedges& mesh, const Implicit& surface) {
     const double before = std::min(agreement(pp, pq, pa, np + nq + na), agreement(pq, pp, pb, np + nq + nb));
     const double after = std::min(agreement(pp, pb, pa, np + nb + na), agreement(pq, pa, pb, nq + na + nb));
     if (after < std::min(0.8, before)) continue;
-    const double error = chord_error(surface, pp, pq), new_error = chord_error(surface, pa, pb);
     const double length = (pa - pb).norm();
+    // Only an edge between normals that differ can leave the surface.
+    if (delaunay >= -1e-3 && (np | nq) > 0.9) continue;
+    const double error = chord_error(surface, pp, pq), new_error = chord_error(surface, pa, pb);
     const bool rounder = delaunay < -1e-3 && new_error <= error + 0.02 * length;
     const bool closer = error > 0.08 * length && new_error < 0.5 * error;
     if (!rounder && !closer) continue;
@@ -172,7 +215,7 @@ std::size_t flip_edges(Halfedges& mesh, const Implicit& surface) {
 /// Moves every vertex towards the mean of its neighbours, weighted by the faces between them in units of the target
 /// size, in its tangent plane, then back onto the surface. A vertex stays where it would leave its sheet of a thin wall
 /// or turn a face over.
-void relax(Halfedges& mesh, const Implicit& surface, double greatest, double scale, Context& context) {
+void relax(Halfedges& mesh, const Implicit& surface, double greatest, Context& context) {
   const SizeField sizes = measure_sizes(mesh, greatest);
   const std::size_t count = mesh.n_vertices();
   std::vector<Point> moved(count), normals(count);
@@ -195,11 +238,10 @@ void relax(Halfedges& mesh, const Implicit& surface, double greatest, double sca
       if (!(weight > 0)) continue;
       Point step = sum / weight - here;
       step -= (step | normal) * normal;
-      const Vec3 target = project(surface, to_vec(here + 0.7 * step), scale);
-      const Vec3 turned = surface(target).gradient.normalized();
-      if ((to_vec(here) - target).squaredNorm() > 4 * step.sqrnorm() + 1e-24 * scale * scale) continue;
-      if (turned.dot(to_vec(normal)) < 0.5) continue;
-      const Point there = to_point(target), facing = to_point(turned);
+      const Landing landing = land(surface, to_vec(here + 0.7 * step), rough * greatest);
+      const Point there = to_point(landing.point), facing = to_point(landing.normal);
+      if ((here - there).sqrnorm() > 4 * step.sqrnorm() + rough * rough * greatest * greatest) continue;
+      if ((facing | normal) < 0.5) continue;
       bool sound = true;
       for (auto it = mesh.cvoh_iter(v); it.is_valid() && sound; ++it) {
         const auto b = mesh.to_vertex_handle(*it), c = mesh.to_vertex_handle(mesh.next_halfedge_handle(*it));
@@ -219,10 +261,10 @@ void relax(Halfedges& mesh, const Implicit& surface, double greatest, double sca
   }
 }
 
-void improve(Halfedges& mesh, const Implicit& surface, double greatest, double scale, int rounds, Context& context) {
+void improve(Halfedges& mesh, const Implicit& surface, double greatest, int rounds, Context& context) {
   for (int i = 0; i < rounds && !context.cancelled(); ++i) {
     flip_edges(mesh, surface);
-    relax(mesh, surface, greatest, scale, context);
+    relax(mesh, surface, greatest, context);
   }
 }
 
@@ -253,19 +295,22 @@ TriangleSoup remesh(const TriangleSoup& soup, const Implicit& surface, Index fac
   const double even = std::sqrt(4 / std::sqrt(3.0) * area / faces);  // edge of equal equilateral triangles
 
   // In two steps: the second sees well-shaped triangles, so that few are left that could not be collapsed.
-  improve(mesh, surface, even, scale, 1, context);
-  split_edges(mesh, surface, even, scale);
+  improve(mesh, surface, even, 1, context);
+  split_edges(mesh, surface, even);
   decimate(mesh, even, static_cast<std::size_t>(1.4 * faces));
-  improve(mesh, surface, even, scale, 3, context);
+  improve(mesh, surface, even, 3, context);
   for (int attempt = 0; attempt < 4 && mesh.n_faces() > faces + 1; ++attempt) {
     decimate(mesh, even, faces);
-    improve(mesh, surface, even, scale, 4, context);
+    improve(mesh, surface, even, 4, context);
   }
-  improve(mesh, surface, even, scale, 8, context);
+  improve(mesh, surface, even, 8, context);
 
   TriangleSoup result;
   result.positions.reserve(mesh.n_vertices());
   for (const auto v : mesh.vertices()) result.positions.push_back(to_vec(mesh.point(v)));
+  context.parallel_for(result.positions.size(), 512, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) result.positions[v] = project(surface, result.positions[v], scale);
+  });
   for (const auto f : mesh.faces()) {
     Triangle triangle;
     std::size_t corner = 0;

@@ -13,6 +13,8 @@
 
 #include "base/errors.h"
 #include "base/nearest_name.h"
+#include "plugin/option_check.h"
+#include "sample/draw.h"
 #include "sample/isosurface.h"
 #include "sample/remesh.h"
 #include "sample/solid.h"
@@ -21,10 +23,27 @@ namespace toposcope {
 
 namespace {
 
+struct Maker {
+  SampleKind (*kind)();
+  Solid (*make)(const ParameterValues&);
+};
+constexpr Maker makers[] = {{cup_kind, make_cup},          {tee_kind, make_tee},     {wye_kind, make_wye},
+                            {cross_kind, make_cross},      {elbow_kind, make_elbow}, {tricorner_kind, make_tricorner},
+                            {airplane_kind, make_airplane}};
+
 double to_number(const std::string& text) {
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);  // not strtod: it follows the locale
   return value;
+}
+
+const SampleKind& find_kind(const std::vector<SampleKind>& kinds, const std::string& name) {
+  std::vector<std::string> names;
+  for (const SampleKind& kind : kinds) {
+    if (kind.name == name) return kind;
+    names.push_back(kind.name);
+  }
+  throw UsageError(fmt::format("sample kind '{}' is not known: {}", name, name_remedy(name, names)));
 }
 
 void check_request(const SampleRequest& request) {
@@ -34,16 +53,22 @@ void check_request(const SampleRequest& request) {
   if (!(request.noise_rel >= 0 && request.noise_rel <= 0.1))
     throw UsageError(fmt::format("{}: noise is {} box diagonals: it must lie between 0 and 0.1, such as 0.001",
                                  request.kind, request.noise_rel));
+  if (request.random && !request.preset.empty())
+    throw UsageError(fmt::format("{}: preset '{}' and random parameters exclude each other: leave one out",
+                                 request.kind, request.preset));
 }
 
 /// Meshes the solid on a grid that resolves its thinnest part and gives more faces than asked for, and thins that.
 TriangleSoup mesh_solid(const Solid& solid, const SampleRequest& request, Context& context) {
   const double faces = request.faces;
-  double spacing = 0.55 * solid.thinnest;  // below 1 / sqrt(3): no cell meets both sides of a wall
+  // Thin material comes out whole on a coarser grid when the net is laid a little outside it; gaps become narrower
+  // there.
+  const double level = std::clamp((solid.gap - solid.thinnest) / 4, 0.0, 0.75 * solid.thinnest);
+  double spacing = 0.55 * (solid.thinnest + 2 * level);  // below 1 / sqrt(3): no cell meets both sides of a wall
   TriangleSoup fine;
   for (int attempt = 0; attempt < 8; ++attempt) {
     try {
-      fine = extract_isosurface(solid.surface, solid.low, solid.high, spacing, context);
+      fine = extract_isosurface(solid.surface, solid.low, solid.high, spacing, level, context);
     } catch (const std::length_error&) {
       throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
                                    solid.thinnest_parameter, solid.thinnest));
@@ -99,15 +124,6 @@ void add_noise(std::vector<Vec3>& positions, const Implicit& surface, const Samp
 
 }  // namespace
 
-SampleKind find_kind(const std::vector<SampleKind>& kinds, const std::string& name) {
-  std::vector<std::string> names;
-  for (const SampleKind& kind : kinds) {
-    if (kind.name == name) return kind;
-    names.push_back(kind.name);
-  }
-  throw UsageError(fmt::format("sample kind '{}' is not known: {}", name, name_remedy(name, names)));
-}
-
 void mark_vertices(SampleFeature& feature, const std::vector<Vec3>& positions) {
   std::set<Index> taken;
   std::vector<Vec3> points;
@@ -135,8 +151,19 @@ OptionRow length_parameter(const char* name, const char* default_value, const ch
   return {name, OptionType::real, "length", default_value, minimum, "", meaning};
 }
 
+OptionRow angle_parameter(const char* name, const char* default_value, const char* meaning) {
+  return {name, OptionType::real, "degrees", default_value, "-180", "180", meaning};
+}
+
 OptionRow switch_parameter(const char* name, const char* default_value, const char* meaning) {
   return {name, OptionType::boolean, "", default_value, "", "", meaning};
+}
+
+double parameter_number(const OptionRow& row, const std::string& text) {
+  if (row.type == OptionType::boolean) return text == "true" ? 1 : 0;
+  const std::vector<std::string> choices = option_choices(row);
+  if (choices.empty()) return to_number(text);
+  return static_cast<double>(std::find(choices.begin(), choices.end(), text) - choices.begin());
 }
 
 double parameter(const ParameterValues& values, std::string_view name) {
@@ -170,15 +197,24 @@ ParameterValues check_parameters(const SampleKind& kind, const std::map<std::str
   std::vector<std::string> names;
   for (const OptionRow& row : kind.parameters) {
     const auto it = given.find(row.name);
-    const double value = it == given.end() ? (row.type == OptionType::boolean ? double(row.default_value == "true")
-                                                                              : to_number(row.default_value))
-                                           : it->second;
-    if (row.type == OptionType::boolean)
+    const std::vector<std::string> choices = option_choices(row);
+    const double value = it == given.end() ? parameter_number(row, row.default_value) : it->second;
+    if (!choices.empty())
+      require(value >= 0 && value < static_cast<double>(choices.size()) && value == std::floor(value), kind.name,
+              row.name, value, "it must be the number of a choice, from 0", "the default is " + row.default_value);
+    else if (row.type == OptionType::boolean)
       require(value == 0 || value == 1, kind.name, row.name, value, "it must be true or false",
               "the default is " + row.default_value);
-    else
+    else if (row.minimum.empty())
+      require(std::isfinite(value), kind.name, row.name, value, "it must be a finite number",
+              "the default is " + row.default_value);
+    else if (row.unit == "length")
       require(std::isfinite(value) && value > to_number(row.minimum), kind.name, row.name, value,
               "it must be a finite number greater than " + row.minimum, "the default is " + row.default_value);
+    else
+      require(value >= to_number(row.minimum) && value <= to_number(row.maximum), kind.name, row.name, value,
+              fmt::format("it must lie between {} and {}", row.minimum, row.maximum),
+              "the default is " + row.default_value);
     values.emplace_back(row.name, value);
     names.push_back(row.name);
   }
@@ -190,22 +226,38 @@ ParameterValues check_parameters(const SampleKind& kind, const std::map<std::str
 }
 
 std::vector<SampleKind> sample_kinds() {
-  return {cup_kind(), tee_kind()};
+  std::vector<SampleKind> kinds;
+  for (const Maker& maker : makers) kinds.push_back(maker.kind());
+  return kinds;
+}
+
+double sample_parameter(const SampleKind& kind, const std::string& name, const std::string& text) {
+  const OptionValue value = check_option(kind.parameters, name, text, "sample '" + kind.name + "'");
+  for (const OptionRow& row : kind.parameters)
+    if (row.name == name && row.type == OptionType::text) return parameter_number(row, text);
+  return value.number;
 }
 
 Solid make_solid(const std::string& kind, const ParameterValues& parameters) {
-  if (kind == "cup") return make_cup(parameters);
-  if (kind == "tee") return make_tee(parameters);
+  for (const Maker& maker : makers)
+    if (maker.kind().name == kind) return maker.make(parameters);
   throw std::logic_error("sample kind '" + kind + "' is listed but cannot be made");
 }
 
-Sample make_sample(const SampleRequest& request, Context& context) {
+ParameterValues requested_parameters(const SampleRequest& request) {
   const std::vector<SampleKind> kinds = sample_kinds();
-  const SampleKind kind = find_kind(kinds, request.kind);
+  const SampleKind& kind = find_kind(kinds, request.kind);
   check_request(request);
+  std::map<std::string, double> given = request.parameters;
+  if (!request.preset.empty()) given = preset_parameters(kind, request.preset, given);
+  if (request.random) given = draw_parameters(kind, given, request.seed);
+  return check_parameters(kind, given);
+}
+
+Sample make_sample(const SampleRequest& request, Context& context) {
   Sample sample;
   sample.kind = request.kind;
-  sample.parameters = check_parameters(kind, request.parameters);
+  sample.parameters = requested_parameters(request);
   sample.noise_rel = request.noise_rel;
   sample.seed = request.seed;
 

@@ -82,13 +82,16 @@ Eigen::Matrix3d random_rotation(Uniform& uniform) {
       .toRotationMatrix();
 }
 
-/// Half the thinnest part, so that no cell meets both sides of a wall; less where as many faces are wanted. Noise does
-/// not make it coarser: many views average it out.
-double grid_spacing(const Sample& exact, const ScanSettings& settings, double diagonal) {
+/// A net of cells half as large as the thinnest part is thick keeps both its sides. For thinner parts than `finest`
+/// cells bear it is laid a little outside them, as far as the gaps between parts allow. Noise does not make it coarser:
+/// many views average it out.
+DepthFusion fusion_for(const Sample& exact, const ScanSettings& settings, double diagonal) {
   constexpr double thinnest_allowed = 0.02;  // of the diagonal, where the sample does not tell
-  const double wall = exact.thinnest > 0 ? exact.thinnest : thinnest_allowed * diagonal;
+  const double thinnest = exact.thinnest > 0 ? exact.thinnest : thinnest_allowed * diagonal;
+  const double room = std::clamp((exact.gap - thinnest) / 4, 0.0, 0.75 * thinnest);
   const double edge = std::sqrt(4 / std::sqrt(3.0) * area_of(exact.mesh) / settings.faces);
-  return std::min(0.5 * wall, 0.75 * edge);
+  const double spacing = std::min(0.5 * (thinnest + 2 * room), 0.6 * edge);
+  return {.spacing = spacing, .level = std::max(0.0, spacing - thinnest / 2), .noise = settings.noise_rel * diagonal};
 }
 
 /// The steps from the raw surface to the mesh.
@@ -119,15 +122,14 @@ Sample scan(const Sample& exact, const ScanSettings& settings, PluginHost& host,
   for (Vec3& p : posed.mesh.positions) p = rotation * (p - extent.center());
   double radius = 0;
   for (const Vec3& p : posed.mesh.positions) radius = std::max(radius, p.norm());
-  const double spacing = grid_spacing(exact, settings, diagonal);
-  const double noise = settings.noise_rel * diagonal;
+  const DepthFusion fusion = fusion_for(exact, settings, diagonal);
+  const double spacing = fusion.spacing, noise = fusion.noise;
   const std::vector<DepthView> views =
       scan_depths(posed.mesh, chosen_directions(settings, side),
                   {.pixel = spacing / 2, .distance = 3 * radius, .noise = noise, .seed = settings.seed}, context);
   const Extent box = extent_of(posed.mesh.positions);
   const Vec3 margin = Vec3::Constant(4 * noise);
-  TriangleSoup raw = fuse_depths(views, {.spacing = spacing, .behind = 1.7 * spacing, .noise = noise}, box.low - margin,
-                                 box.high + margin, context);
+  TriangleSoup raw = fuse_depths(views, fusion, box.low - margin, box.high + margin, context);
   const bool partial = settings.seen_from > 0;
   if (partial) keep_measured(raw, views, spacing + 3 * noise, context);
   keep_large_components(raw, !partial);

@@ -115,6 +115,7 @@ Sample scanned_truth(const Sample& posed, const MeshView& mesh, const Pose& pose
   made.kind = posed.kind;
   made.parameters = posed.parameters;
   made.thinnest = posed.thinnest;
+  made.gap = posed.gap;
   made.part_names = posed.part_names;
   made.mesh.positions.assign(mesh.positions.begin(), mesh.positions.end());
   made.mesh.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());

@@ -86,17 +86,21 @@ Sample make_scan_target(const SampleRequest& request, Context& context) {
   Sample sample;
   sample.kind = request.kind;
   sample.seed = request.seed;
-  sample.parameters = check_parameters(find_kind(sample_kinds(), request.kind), request.parameters);
+  sample.parameters = requested_parameters(request);
   const Solid solid = make_solid(request.kind, sample.parameters);
-  const double spacing = 0.55 * solid.thinnest;  // as make_sample
+  // The net may be coarse, as in make_sample: rays do not mind faces of uneven size.
+  const double level = std::clamp((solid.gap - solid.thinnest) / 4, 0.0, 0.75 * solid.thinnest);
+  const double diagonal = (solid.high - solid.low).norm();
+  const double spacing = std::min(0.55 * (solid.thinnest + 2 * level), 0.02 * diagonal);
+  const double tolerance = 0.0002 * diagonal * std::min(1.0, std::sqrt(20000.0 / request.faces));
   try {
-    sample.mesh = extract_isosurface(solid.surface, solid.low, solid.high, spacing, context);
+    sample.mesh = extract_isosurface(solid.surface, solid.low, solid.high, spacing, level, context);
   } catch (const std::length_error&) {
     throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
                                  solid.thinnest_parameter, solid.thinnest));
   }
-  // Three times halve edges of the grid's size that a rounding bends about.
-  for (int round = 0; round < 3; ++round) refine(sample.mesh, solid.surface, spacing, 0.02 * spacing, context);
+  for (int round = 0; round < 4; ++round) refine(sample.mesh, solid.surface, spacing, tolerance, context);
+  sample.gap = solid.gap;
   sample.thinnest = solid.thinnest;
   sample.features = solid.features;
   sample.part_names = solid.part_names;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nlohmann/json.hpp>
 
+#include "plugin/option_check.h"
 #include "sample/sample.h"
 
 namespace toposcope {
@@ -65,6 +66,15 @@ Json scan_json(const ScanRecord& scan) {
           {"translation", triple(scan.translation)}};
 }
 
+/// A number, or the name of the choice that it stands for.
+Json parameter_json(const std::string& kind_name, const std::string& name, double value) {
+  for (const SampleKind& kind : sample_kinds())
+    for (const OptionRow& row : kind.parameters)
+      if (kind.name == kind_name && row.name == name && row.type == OptionType::text)
+        return option_choices(row).at(static_cast<std::size_t>(value));
+  return value;
+}
+
 }  // namespace
 
 std::string truth_json(const Sample& sample, const std::string& mesh_file) {
@@ -79,7 +89,7 @@ std::string truth_json(const Sample& sample, const std::string& mesh_file) {
     json["parts"][sample.part_names[part]] = faces;
   }
   Json parameters = Json::object();
-  for (const auto& [name, value] : sample.parameters) parameters[name] = value;
+  for (const auto& [name, value] : sample.parameters) parameters[name] = parameter_json(sample.kind, name, value);
   json["sample"] = {
       {"kind", sample.kind}, {"parameters", parameters}, {"noise_rel", sample.noise_rel}, {"seed", sample.seed}};
   if (sample.scan) json["sample"]["scan"] = scan_json(*sample.scan);

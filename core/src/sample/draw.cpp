@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sample/draw.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <random>
+
+#include "base/errors.h"
+#include "base/nearest_name.h"
+
+namespace toposcope {
+
+namespace {
+
+constexpr int most_draws = 500;
+
+/// Neighbouring seeds must give unrelated objects, unrelated to the noise of the same seed too (Steele, Lea and Flood
+/// 2014, splitmix64).
+std::uint64_t scramble(std::uint64_t seed) {
+  std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : engine_(scramble(seed)) {}
+
+  double operator()(const RandomRange& range, OptionType type, double unit) {
+    const double share = static_cast<double>(engine_() >> 11) * 0x1p-53;
+    if (type == OptionType::boolean) return share < range.high ? 1 : 0;
+    if (range.step > 0) {
+      const double steps = std::floor((range.high - range.low) / range.step + 1.5);
+      return range.low + range.step * std::min(std::floor(share * steps), steps - 1);
+    }
+    return unit * (range.low + share * (range.high - range.low));
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+OptionType type_of(const SampleKind& kind, const std::string& name) {
+  for (const OptionRow& row : kind.parameters)
+    if (row.name == name) return row.type;
+  throw std::logic_error("range of an unknown parameter '" + name + "'");
+}
+
+}  // namespace
+
+std::string describe_range(const SampleKind& kind, const std::string& parameter) {
+  for (const RandomRange& range : kind.ranges) {
+    if (range.name != parameter) continue;
+    const OptionType type = type_of(kind, parameter);
+    if (type == OptionType::boolean) return fmt::format("true in {:.0f} of 100", 100 * range.high);
+    if (type == OptionType::text) return "any";
+    if (range.step > 1) return fmt::format("{} to {} by {}", range.low, range.high, range.step);
+    return fmt::format("{} to {}{}{}", range.low, range.high, range.of.empty() ? "" : " ", range.of);
+  }
+  return "the default";
+}
+
+std::map<std::string, double> draw_parameters(const SampleKind& kind, const std::map<std::string, double>& given,
+                                              std::uint64_t seed, int* draws) {
+  check_parameters(kind, given);
+  Draw draw(seed);
+  std::string refusal;
+  for (int attempt = 1; attempt <= most_draws; ++attempt) {
+    std::map<std::string, double> values = given;
+    for (const RandomRange& range : kind.ranges) {
+      const double unit = range.of.empty() ? 1 : values.at(range.of);
+      values.emplace(range.name, draw(range, type_of(kind, range.name), unit));  // those given stay
+    }
+    if (draws) *draws = attempt;
+    try {
+      if (make_solid(kind.name, check_parameters(kind, values)).typical) return values;
+      refusal = "the object is not what its class describes";
+    } catch (const UsageError& error) {
+      refusal = error.what();
+    }
+  }
+  throw UsageError(
+      fmt::format("{}: none of {} random draws goes with the parameters given; the last one: {}; give fewer "
+                  "parameters or others",
+                  kind.name, most_draws, refusal));
+}
+
+std::map<std::string, double> preset_parameters(const SampleKind& kind, const std::string& preset,
+                                                const std::map<std::string, double>& given) {
+  std::vector<std::string> names;
+  for (const SamplePreset& candidate : kind.presets) {
+    if (candidate.name == preset) {
+      std::map<std::string, double> values = given;
+      values.insert(candidate.parameters.begin(), candidate.parameters.end());
+      return values;
+    }
+    names.push_back(candidate.name);
+  }
+  throw UsageError(fmt::format("{}: preset '{}' is not known: {}", kind.name, preset, name_remedy(preset, names)));
+}
+
+}  // namespace toposcope
