@@ -19,7 +19,7 @@ struct ScanSettings {
 };
 
 /// An object as make_sample makes it, but with the mesh that a scan wants: its vertices lie on the exact surface, as do
-/// its edges' middles within 0.0002 diagonals. \throw UsageError  as make_sample does
+/// its edges' middles within 0.0002 diagonals. Not always a manifold. \throw UsageError  as make_sample does
 Sample make_scan_target(const SampleRequest& request, Context& context);
 
 /// Turns the object at random, moves it by up to its diagonal along each axis, looks at it from viewpoints at three

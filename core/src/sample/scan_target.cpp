@@ -17,8 +17,14 @@ namespace toposcope {
 
 namespace {
 
-/// Cuts the edges whose middle is farther than `tolerance` from the surface: the middle moves onto it.
-void refine(TriangleSoup& mesh, const Implicit& surface, double spacing, double tolerance, Context& context) {
+/// What is cut: edges whose middle is farther than `tolerance` from the surface, and edges from part to part that are
+/// longer than `seam`.
+struct Refinement {
+  double tolerance = 0, seam = 0;
+};
+
+/// Cuts edges at their middle, which moves onto the surface.
+void refine(TriangleSoup& mesh, const Solid& solid, double spacing, const Refinement& wanted, Context& context) {
   struct Edge {
     Index from, to, half_edge;
     bool operator<(const Edge& other) const {
@@ -34,15 +40,22 @@ void refine(TriangleSoup& mesh, const Implicit& surface, double spacing, double 
       edges.push_back({std::min(a, b), std::max(a, b), 3 * f + k});
     }
   std::sort(edges.begin(), edges.end());
+  std::vector<std::size_t> parts(mesh.positions.size(), 0);
+  if (solid.part_names.size() > 1)
+    context.parallel_for(parts.size(), 4096, [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) parts[v] = solid.part_of(mesh.positions[v]);
+    });
   std::vector<Vec3> middles(edges.size());  // of the first of equal edges
   std::vector<char> cut(edges.size(), 0);
   context.parallel_for(edges.size(), 4096, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       if (i > 0 && edges[i].same(edges[i - 1])) continue;
-      const Vec3 middle = (mesh.positions[edges[i].from] + mesh.positions[edges[i].to]) / 2;
-      if (std::abs(surface(middle).value) <= tolerance) continue;
+      const Index a = edges[i].from, b = edges[i].to;
+      const Vec3 middle = (mesh.positions[a] + mesh.positions[b]) / 2;
+      const bool seam = parts[a] != parts[b] && (mesh.positions[a] - mesh.positions[b]).norm() > wanted.seam;
+      if (!seam && std::abs(solid.surface(middle).value) <= wanted.tolerance) continue;
       cut[i] = 1;
-      middles[i] = project(surface, middle, spacing);
+      middles[i] = project(solid.surface, middle, spacing);
     }
   });
   std::vector<Index> new_vertex(edges.size(), no_index);  // by half-edge
@@ -92,14 +105,15 @@ Sample make_scan_target(const SampleRequest& request, Context& context) {
   const double level = std::clamp((solid.gap - solid.thinnest) / 4, 0.0, 0.75 * solid.thinnest);
   const double diagonal = (solid.high - solid.low).norm();
   const double spacing = std::min(0.55 * (solid.thinnest + 2 * level), 0.02 * diagonal);
-  const double tolerance = 0.0002 * diagonal * std::min(1.0, std::sqrt(20000.0 / request.faces));
+  const double fine = diagonal * std::min(1.0, std::sqrt(20000.0 / request.faces));
+  const Refinement wanted{.tolerance = 0.0002 * fine, .seam = 0.004 * fine};
   try {
     sample.mesh = extract_isosurface(solid.surface, solid.low, solid.high, spacing, level, context);
   } catch (const std::length_error&) {
     throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
                                  solid.thinnest_parameter, solid.thinnest));
   }
-  for (int round = 0; round < 4; ++round) refine(sample.mesh, solid.surface, spacing, tolerance, context);
+  for (int round = 0; round < 4; ++round) refine(sample.mesh, solid, spacing, wanted, context);
   sample.gap = solid.gap;
   sample.thinnest = solid.thinnest;
   sample.features = solid.features;
