@@ -63,7 +63,7 @@ TriangleSoup mesh_solid(const Solid& solid, const SampleRequest& request, Contex
   const double faces = request.faces;
   // Thin material comes out whole on a coarser grid when the net is laid a little outside it; gaps become narrower
   // there.
-  const double level = std::clamp((solid.gap - solid.thinnest) / 4, 0.0, 0.75 * solid.thinnest);
+  const double level = std::clamp((solid.gap - solid.thinnest) / 4, 0.0, 1.25 * solid.thinnest);
   double spacing = 0.55 * (solid.thinnest + 2 * level);  // below 1 / sqrt(3): no cell meets both sides of a wall
   TriangleSoup fine;
   for (int attempt = 0; attempt < 8; ++attempt) {
