@@ -88,9 +88,9 @@ struct SampleOptions : CommonOptions {
   fs::path out;
   bool list = false;
   bool scan = false;
-  std::uint32_t viewpoints = 20, seen_from = 0;
+  std::uint32_t viewpoints = 60, seen_from = 0;
   double scan_noise = 0.0005;
-  int smoothing = 10;
+  int smoothing = 3;
   std::string preset;
   bool random = false;
 };

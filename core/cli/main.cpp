@@ -206,8 +206,7 @@ int dispatch(int argc, char** argv) {
   sample_app->add_flag("--scan", sample_options.scan, "turn the object, scan it and make the mesh of what was seen");
   const std::vector<CLI::Option*> scan_options = {
       sample_app->add_option("--views", sample_options.viewpoints, "viewpoints of the scan")->capture_default_str(),
-      sample_app
-          ->add_option("--view", sample_options.seen_from, "keep what is seen from so many of them; 0: all, closed")
+      sample_app->add_option("--view", sample_options.seen_from, "keep only what so many viewpoints on one side see")
           ->capture_default_str(),
       sample_app->add_option("--scan-noise", sample_options.scan_noise, "sd along the ray, part of the diagonal")
           ->capture_default_str(),

@@ -54,7 +54,7 @@ Sample scanned(const SampleOptions& options) {
                               .seed = options.seed};
   Session session(options);
   const Sample target = make_scan_target(request_of(options), session.context());
-  return scan(target, settings, scan_filters(session.host(), settings), session.context());
+  return scan(target, settings, session.host(), session.context());
 }
 
 Sample exact(const SampleOptions& options) {

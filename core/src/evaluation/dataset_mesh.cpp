@@ -42,7 +42,7 @@ Sample scanned(const SampleRequest& request, const DatasetMesh& item, PluginHost
   settings.seen_from = item.view;
   settings.seed = item.seed;
   if (item.noise) settings.noise_rel = *item.noise;
-  return scan(make_scan_target(request, context), settings, scan_filters(host, settings), context);
+  return scan(make_scan_target(request, context), settings, host, context);
 }
 
 KnownMesh made(const DatasetMesh& item, PluginHost& host, Context& context) {

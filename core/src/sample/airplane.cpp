@@ -190,6 +190,12 @@ std::vector<Engine> port_engines(const Airplane& a) {
   return engines;
 }
 
+double engine_gap(const Airplane& a) {
+  const double half_wing = a.wing.thickness * a.wing.chord(a.engine_station * a.wing.span) / 2;
+  if (a.engines == 0 || a.engine_drop <= a.engine_radius) return a.radius;  // none, or within the wing
+  return std::min(a.radius, a.engine_drop - a.engine_radius - (a.rear_engines ? 0 : half_wing));
+}
+
 Solid make_airplane(const ParameterValues& parameters) {
   const Airplane a(parameters);
   check_airplane(a);
@@ -219,7 +225,7 @@ Solid make_airplane(const ParameterValues& parameters) {
     solid.part_names.push_back("engine");
   }
   solid.low.y() = -solid.high.y();
-  solid.gap = a.engines > 0 ? 0.7 * a.engine_radius : a.radius;
+  solid.gap = engine_gap(a);
   solid.surface = mirror_y(half);
   solid.part_of = [parts, engines](const Vec3& point) {
     const Vec3 p(point.x(), std::abs(point.y()), point.z());

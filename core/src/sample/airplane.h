@@ -31,6 +31,9 @@ struct Airplane {
 /// \throw UsageError
 void check_airplane(const Airplane& airplane);
 
+/// Least width of the gap between engines and what they hang on.
+double engine_gap(const Airplane& airplane);
+
 /// Half of a pair of engines on the port side, with what holds it.
 struct Engine {
   Implicit surface;

@@ -52,7 +52,7 @@ std::vector<SamplePreset> airplane_presets() {
             {"wing_span", 96},        {"wing_root_chord", 20}, {"wing_tip_chord", 9},   {"wing_sweep", 26},
             {"wing_dihedral", 5},     {"t_tail", 1},           {"fin_height", 23},      {"fin_position", 79},
             {"fin_sweep", 42},        {"fin_tip_chord", 11},   {"stabilizer_span", 36}, {"stabilizer_root_chord", 12},
-            {"stabilizer_sweep", 26}, {"engines", 2},          {"engines_at_rear", 1},  {"engine_drop", 5.4},
+            {"stabilizer_sweep", 26}, {"engines", 2},          {"engines_at_rear", 1},  {"engine_drop", 5.8},
             {"tip_rounding", 0.6}}}};
 }
 
@@ -91,7 +91,7 @@ std::vector<RandomRange> airplane_ranges() {
           {"engine_radius", 0.018, 0.028, "length"},
           {"engine_length", 4, 6, "engine_radius"},
           {"engine_station", 0.28, 0.42},
-          {"engine_drop", 0, 4, "engine_radius"},
+          {"engine_drop", 0, 5, "engine_radius"},
           {"fillet", 0.2, 0.45, "fuselage_radius"}};
 }
 
@@ -139,7 +139,7 @@ SampleKind airplane_kind() {
        length_parameter("engine_length", "13", "0", "length of a nacelle"),
        ratio("engine_station", "0.34", "0.1", "0.9", "place of the inner engines, in parts of the half span"),
        length_parameter(
-           "engine_drop", "6.5", "0",
+           "engine_drop", "7.5", "0",
            "of the engine's axis below the wing, or beyond the fuselage's side; over engine_radius with a pylon"),
        length_parameter("fillet", "2", "0", "radius of the fillets where wings and stabilisers meet the fuselage")},
       airplane_presets(),
@@ -202,8 +202,8 @@ void check_airplane(const Airplane& a) {
           a.engine_radius, "it must lie between 0.012 length and 0.8 fuselage_radius", "choose it in that range");
   if (a.rear_engines) {
     require(a.engines == 2, kind, "engines", a.engines, "at the rear there may be two", "give engines=2");
-    require(a.engine_drop >= 1.8 * a.engine_radius && a.engine_drop <= 3 * a.engine_radius, kind, "engine_drop",
-            a.engine_drop, "at the rear it must lie between 1.8 and 3 engine_radius", "choose it in that range");
+    require(a.engine_drop >= 2.2 * a.engine_radius && a.engine_drop <= 4 * a.engine_radius, kind, "engine_drop",
+            a.engine_drop, "at the rear it must lie between 2.2 and 4 engine_radius", "choose it in that range");
     const double room = std::min(a.fin_position, a.t_tail ? a.length : a.stabilizer_position) - wing_end;
     require(room >= a.engine_length + 2 * a.fillet || a.wing_height < -0.3 * a.radius, kind, "engine_length",
             a.engine_length, "engines at the rear need room between wing and tail", "give shorter ones or a low wing");
@@ -218,12 +218,12 @@ void check_airplane(const Airplane& a) {
           "two engines under a wing must clear each other", "move them outwards");
   const double half_wing = a.wing.thickness * a.wing.chord(station) / 2;
   const bool on_wing = a.engine_drop <= 0.8 * a.engine_radius;
-  const bool on_pylon = a.engine_drop >= 1.8 * a.engine_radius + half_wing && a.engine_drop <= 6 * a.engine_radius;
+  const bool on_pylon = a.engine_drop >= 2.2 * a.engine_radius + half_wing && a.engine_drop <= 6 * a.engine_radius;
   require(on_wing || on_pylon, kind, "engine_drop", a.engine_drop,
-          "the engine must sit in the wing (at most 0.8 engine_radius) or hang clear of it (from 1.8 engine_radius and "
+          "the engine must sit in the wing (at most 0.8 engine_radius) or hang clear of it (from 2.2 engine_radius and "
           "half "
           "the wing's thickness, here " +
-              std::to_string(1.8 * a.engine_radius + half_wing) + ", to 6 engine_radius)",
+              std::to_string(2.2 * a.engine_radius + half_wing) + ", to 6 engine_radius)",
           "choose it so");
   require(a.engine_length <= 1.2 * a.wing.chord(outermost) + 0.2 * a.wing.root_chord, kind, "engine_length",
           a.engine_length, "the engines must be about as long as the wing's chord at most", "give shorter ones");

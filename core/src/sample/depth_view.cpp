@@ -38,17 +38,18 @@ std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Two standard normal numbers (Box and Muller 1958) for each key.
-struct NormalPair {
-  double first, second;
-  explicit NormalPair(std::uint64_t key) {
-    const std::uint64_t a = mix(key), b = mix(a ^ key);
+/// Standard normal numbers (Box and Muller 1958), from which the pixels draw.
+std::vector<float> normal_numbers(std::uint64_t seed) {
+  std::vector<float> numbers(65536);
+  for (std::size_t i = 0; i < numbers.size(); i += 2) {
+    const std::uint64_t a = mix(seed + i), b = mix(seed + i + 1);
     const double radius = std::sqrt(-2 * std::log((static_cast<double>(a >> 11) + 0.5) * 0x1p-53));
     const double angle = 2 * pi * static_cast<double>(b >> 11) * 0x1p-53;
-    first = radius * std::cos(angle);
-    second = radius * std::sin(angle);
+    numbers[i] = static_cast<float>(radius * std::cos(angle));
+    numbers[i + 1] = static_cast<float>(radius * std::sin(angle));
   }
-};
+  return numbers;
+}
 
 struct Corner {
   double x, y, w;
@@ -62,8 +63,9 @@ struct Pixel {
 /// A view's buffers, kept from view to view.
 class Camera {
  public:
-  Camera(const TriangleSoup& mesh, const std::vector<Plane>& planes, const DepthScanner& scanner)
-      : mesh_(mesh), planes_(planes), scanner_(scanner), corners_(mesh.positions.size()) {}
+  Camera(const TriangleSoup& mesh, const std::vector<Plane>& planes, const DepthScanner& scanner,
+         const std::vector<float>& noise)
+      : mesh_(mesh), planes_(planes), scanner_(scanner), noise_(noise), corners_(mesh.positions.size()) {}
 
   void take(const Vec3& direction, std::uint64_t number, DepthView& view) {
     aim(direction, view);
@@ -134,19 +136,13 @@ class Camera {
 
   void add_noise(const DepthView& view, std::uint64_t number) {
     const std::uint64_t key = mix(scanner_.seed ^ mix(number + 1));
+    std::size_t at = 0;
     for (int y = 0; y < rows_; ++y)
-      for (int x = 0; x + 1 < columns_; x += 2) {
-        const std::size_t at =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
-        if (pixels_[at].w == 0 && pixels_[at + 1].w == 0) continue;
-        const NormalPair pair(key + at);
-        const double noise[] = {pair.first, pair.second};
-        for (std::size_t i = 0; i < 2; ++i) {
-          Pixel& pixel = pixels_[at + i];
-          if (pixel.w == 0) continue;
-          const double along = 1 / ray_length(view, x + static_cast<int>(i), y);  // depth, for a unit along the ray
-          pixel.w = static_cast<float>(1 / (1 / static_cast<double>(pixel.w) + scanner_.noise * noise[i] * along));
-        }
+      for (int x = 0; x < columns_; ++x, ++at) {
+        Pixel& pixel = pixels_[at];
+        if (pixel.w == 0) continue;
+        const double along = scanner_.noise * static_cast<double>(noise_[mix(key + at) % noise_.size()]);
+        pixel.w = static_cast<float>(1 / (1 / static_cast<double>(pixel.w) + along / ray_length(view, x, y)));
       }
   }
 
@@ -187,6 +183,7 @@ class Camera {
   const TriangleSoup& mesh_;
   const std::vector<Plane>& planes_;
   const DepthScanner& scanner_;
+  const std::vector<float>& noise_;
   std::vector<Corner> corners_;
   std::vector<Pixel> pixels_;
   int columns_ = 0, rows_ = 0;
@@ -208,9 +205,10 @@ std::vector<Vec3> spread_directions(std::size_t count) {
 std::vector<DepthView> scan_depths(const TriangleSoup& mesh, const std::vector<Vec3>& directions,
                                    const DepthScanner& scanner, Context& context) {
   const std::vector<Plane> planes = planes_of(mesh, context);
+  const std::vector<float> noise = normal_numbers(scanner.seed);
   std::vector<DepthView> views(directions.size());
   context.parallel_for(views.size(), 4, [&](std::size_t first, std::size_t last) {
-    Camera camera(mesh, planes, scanner);
+    Camera camera(mesh, planes, scanner, noise);
     for (std::size_t v = first; v < last; ++v) camera.take(directions[v], v, views[v]);
   });
   return views;

@@ -13,7 +13,8 @@ namespace toposcope {
 
 namespace {
 
-constexpr int most_draws = 500;
+constexpr int most_draws = 1000;
+constexpr int draws_per_decision = 25;
 
 /// Neighbouring seeds must give unrelated objects, unrelated to the noise of the same seed too (Steele, Lea and Flood
 /// 2014, splitmix64).
@@ -67,11 +68,20 @@ std::map<std::string, double> draw_parameters(const SampleKind& kind, const std:
   check_parameters(kind, given);
   Draw draw(seed);
   std::string refusal;
+  std::map<std::string, double> decided;
   for (int attempt = 1; attempt <= most_draws; ++attempt) {
-    std::map<std::string, double> values = given;
+    // Switches and choices stay for a while: else those that ask for more room, such as sockets, would grow rare.
+    if (attempt % draws_per_decision == 1) {
+      decided = given;
+      for (const RandomRange& range : kind.ranges)
+        if (const OptionType type = type_of(kind, range.name); type != OptionType::real)
+          decided.emplace(range.name, draw(range, type, 1));  // those given stay
+    }
+    std::map<std::string, double> values = decided;
     for (const RandomRange& range : kind.ranges) {
+      const OptionType type = type_of(kind, range.name);
       const double unit = range.of.empty() ? 1 : values.at(range.of);
-      values.emplace(range.name, draw(range, type_of(kind, range.name), unit));  // those given stay
+      if (type == OptionType::real) values.emplace(range.name, draw(range, type, unit));
     }
     if (draws) *draws = attempt;
     try {

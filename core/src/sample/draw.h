@@ -12,7 +12,7 @@ namespace toposcope {
 /// Random parameters of a kind from its ranges, drawn again until they do not contradict each other and the object is
 /// one that the kind's class describes. `given` are kept; the same seed gives the same parameters.
 /// \param draws  if not null, how many it took
-/// \throw UsageError  none of 500 draws will do, which only `given` can cause; says what the last one lacks
+/// \throw UsageError  none of 1000 draws will do, which only `given` can cause; says what the last one lacks
 std::map<std::string, double> draw_parameters(const SampleKind& kind, const std::map<std::string, double>& given,
                                               std::uint64_t seed, int* draws = nullptr);
 

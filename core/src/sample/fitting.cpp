@@ -162,7 +162,7 @@ SampleKind fitting_kind(const std::string& name, const std::string& summary, con
                                   {"wall", 0.18, 0.4, "bore_radius"},
                                   {"socket", 0, 0.4},
                                   {"socket_radius", 1.1, 1.25, "bore_radius"},
-                                  {"socket_depth", 0.5, 1.1, "bore_radius"},
+                                  {"socket_depth", 0.45, 1, "bore_radius"},
                                   {"fillet", 0.1, 0.4, "bore_radius"},
                                   {"edge_rounding", 0.12, 0.4, "wall"}};
   all.insert(all.end(), ranges.begin(), ranges.end());

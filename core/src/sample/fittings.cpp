@@ -94,9 +94,9 @@ SampleKind elbow_kind() {
                        length_parameter("bend_radius", "30", "0", "radius of the bend's centre line")},
                       {{"leg1_length", 47}, {"leg2_length", 47}, {"socket_depth", 14}, {"bend_radius", 24.5}},
                       {{"mitred", 0, 0.4},
-                       {"bend_radius", 1.5, 2.2, "bore_radius"},
-                       {"leg1_length", 1.8, 3.8, "bore_radius"},
-                       {"leg2_length", 1.8, 3.8, "bore_radius"}});
+                       {"bend_radius", 1.45, 2.1, "bore_radius"},
+                       {"leg1_length", 2, 3.6, "bore_radius"},
+                       {"leg2_length", 2, 3.6, "bore_radius"}});
 }
 
 Solid make_elbow(const ParameterValues& parameters) {
@@ -122,9 +122,9 @@ SampleKind tricorner_kind() {
        length_parameter("leg2_length", "42", "0", "distance from where the axes meet to the end at +z"),
        length_parameter("leg3_length", "42", "0", "distance from where the axes meet to the end at -y")},
       {{"leg1_length", 47}, {"leg2_length", 47}, {"leg3_length", 47}, {"socket_depth", 14}},
-      {{"leg1_length", 1.9, 3.6, "bore_radius"},
-       {"leg2_length", 1.9, 3.6, "bore_radius"},
-       {"leg3_length", 1.9, 3.6, "bore_radius"}});
+      {{"leg1_length", 2, 3.4, "bore_radius"},
+       {"leg2_length", 2, 3.4, "bore_radius"},
+       {"leg3_length", 2, 3.4, "bore_radius"}});
 }
 
 Solid make_tricorner(const ParameterValues& parameters) {

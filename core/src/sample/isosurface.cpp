@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sample/isosurface.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 namespace toposcope {
@@ -54,6 +57,62 @@ std::array<float, 8> corner_values(const NodeGrid& grid, std::size_t x, std::siz
   return values;
 }
 
+/// Whether the surface passes between the corners of the cell at a node.
+bool crossed(const NodeGrid& grid, std::size_t node) {
+  const std::size_t row = grid.size[0], layer = grid.size[0] * grid.size[1];
+  const float* v = &grid.values[node];
+  const bool inside = v[0] < 0;
+  for (const std::size_t offset : {std::size_t{1}, row, row + 1, layer, layer + 1, layer + row, layer + row + 1})
+    if ((v[offset] < 0) != inside) return true;
+  return false;
+}
+
+/// The corner to change where a face's or the cube's own opposite corners alone are inside (or outside): there a net
+/// would touch itself. Slight ridges that run askew to the grid and barely cross its planes do this. 8: none.
+std::size_t ambiguous_corner(const std::array<float, 8>& values) {
+  const auto inside = [&](std::size_t c) { return values[c] < 0; };
+  const auto least = [&](std::initializer_list<std::size_t> corners) {
+    return std::min(corners, [&](std::size_t a, std::size_t b) { return std::abs(values[a]) < std::abs(values[b]); });
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+      const std::size_t a = side << axis, u = std::size_t{1} << (axis + 1) % 3, v = std::size_t{1} << (axis + 2) % 3;
+      if (inside(a) == inside(a + u + v) && inside(a + u) == inside(a + v) && inside(a) != inside(a + u))
+        return least({a, a + u, a + v, a + u + v});
+    }
+  const auto count = std::count_if(values.begin(), values.end(), [](float v) { return v < 0; });
+  if (count != 2 && count != 6) return 8;
+  for (std::size_t c = 0; c < 4; ++c)
+    if (inside(c) == (count == 2) && inside(7 - c) == (count == 2)) return least({c, 7 - c});
+  return 8;
+}
+
+/// Turns the signs of nodes that lie all but on the surface where that makes the net a manifold; each node once.
+void resolve_ambiguities(NodeGrid& grid) {
+  constexpr double all_but_on = 0.25;  ///< cells
+  const float limit = static_cast<float>(all_but_on * grid.spacing);
+  const auto turn = [&](auto&& self, std::size_t x, std::size_t y, std::size_t z,
+                        std::set<std::size_t>& turned) -> void {
+    const std::array<float, 8> values = corner_values(grid, x, y, z);
+    const std::size_t c = ambiguous_corner(values);
+    if (c == 8 || std::abs(values[c]) > limit) return;
+    const std::size_t nx = x + (c & 1), ny = y + (c >> 1 & 1), nz = z + (c >> 2), node = grid.node(nx, ny, nz);
+    if (!turned.insert(node).second) return;
+    float& value = grid.values[node];
+    value = value < 0 ? -value : std::min(-value, -std::numeric_limits<float>::min());
+    for (std::size_t k = 0; k < 8; ++k) {
+      const std::size_t cx = nx - (k & 1), cy = ny - (k >> 1 & 1), cz = nz - (k >> 2);
+      if (cx + 1 < grid.size[0] && cy + 1 < grid.size[1] && cz + 1 < grid.size[2]) self(self, cx, cy, cz, turned);
+    }
+  };
+  std::set<std::size_t> turned;
+  for (std::size_t z = 0; z + 1 < grid.size[2]; ++z)
+    for (std::size_t y = 0; y + 1 < grid.size[1]; ++y)
+      for (std::size_t x = 0; x + 1 < grid.size[0]; ++x) {
+        if (crossed(grid, grid.node(x, y, z))) turn(turn, x, y, z, turned);
+      }
+}
+
 /// Mean of the points where the surface crosses the cell's edges, in cells from the cell's first corner.
 Vec3 crossing_mean(const std::array<float, 8>& values) {
   Vec3 sum = Vec3::Zero();
@@ -71,15 +130,29 @@ Vec3 crossing_mean(const std::array<float, 8>& values) {
   return sum / count;
 }
 
-void add_quad(TriangleSoup& mesh, const std::array<Index, 4>& q) {
-  const auto gap = [&](int i, int j) { return (mesh.positions[q[i]] - mesh.positions[q[j]]).squaredNorm(); };
-  if (gap(0, 2) <= gap(1, 3)) {
-    mesh.triangles.push_back({q[0], q[1], q[2]});
-    mesh.triangles.push_back({q[0], q[2], q[3]});
+/// Cosine between a triangle's normal and the mean direction of its corners.
+double agreement(const TriangleSoup& mesh, const std::vector<Vec3>& directions, const Triangle& t) {
+  const Vec3& a = mesh.positions[t[0]];
+  const Vec3 normal = (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a);
+  const Vec3 wanted = directions[t[0]] + directions[t[1]] + directions[t[2]];
+  return normal.dot(wanted) / std::max(normal.norm() * wanted.norm(), 1e-300);
+}
+
+/// \param directions  of the vertices; empty: the shorter diagonal cuts
+void add_quad(TriangleSoup& mesh, const std::vector<Vec3>& directions, const std::array<Index, 4>& q) {
+  const std::array<Triangle, 2> one = {{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}};
+  const std::array<Triangle, 2> other = {{{q[0], q[1], q[3]}, {q[1], q[2], q[3]}}};
+  bool first;
+  if (directions.empty()) {
+    const auto gap = [&](int i, int j) { return (mesh.positions[q[i]] - mesh.positions[q[j]]).squaredNorm(); };
+    first = gap(0, 2) <= gap(1, 3);
   } else {
-    mesh.triangles.push_back({q[0], q[1], q[3]});
-    mesh.triangles.push_back({q[1], q[2], q[3]});
+    const auto worse = [&](const std::array<Triangle, 2>& pair) {
+      return std::min(agreement(mesh, directions, pair[0]), agreement(mesh, directions, pair[1]));
+    };
+    first = worse(one) >= worse(other);
   }
+  for (const Triangle& t : first ? one : other) mesh.triangles.push_back(t);
 }
 
 }  // namespace
@@ -100,23 +173,17 @@ NodeGrid make_node_grid(const Vec3& low, const Vec3& high, double spacing) {
   return grid;
 }
 
-TriangleSoup surface_net(const NodeGrid& grid, const std::function<Vec3(const Vec3&)>& place, Context& context) {
+TriangleSoup surface_net(const NodeGrid& grid, const PlaceVertices& place) {
   TriangleSoup mesh;
   std::vector<Index> vertex_of(grid.values.size(), none);
   for (std::size_t z = 0; z + 1 < grid.size[2]; ++z)
     for (std::size_t y = 0; y + 1 < grid.size[1]; ++y)
       for (std::size_t x = 0; x + 1 < grid.size[0]; ++x) {
-        const std::array<float, 8> values = corner_values(grid, x, y, z);
-        const auto inside = std::count_if(values.begin(), values.end(), [](float v) { return v < 0; });
-        if (inside == 0 || inside == 8) continue;
+        if (!crossed(grid, grid.node(x, y, z))) continue;
         vertex_of[grid.node(x, y, z)] = static_cast<Index>(mesh.positions.size());
-        mesh.positions.push_back(grid.position(x, y, z, crossing_mean(values)));
+        mesh.positions.push_back(grid.position(x, y, z, crossing_mean(corner_values(grid, x, y, z))));
       }
-  if (place)
-    context.parallel_for(mesh.positions.size(), 1024, [&](std::size_t first, std::size_t last) {
-      for (std::size_t v = first; v < last; ++v) mesh.positions[v] = place(mesh.positions[v]);
-    });
-
+  const std::vector<Vec3> directions = place(mesh.positions);
   for (std::size_t z = 1; z + 1 < grid.size[2]; ++z)
     for (std::size_t y = 1; y + 1 < grid.size[1]; ++y)
       for (std::size_t x = 1; x + 1 < grid.size[0]; ++x) {
@@ -129,7 +196,7 @@ TriangleSoup surface_net(const NodeGrid& grid, const std::function<Vec3(const Ve
           std::array<Index, 4> quad = {vertex_of[node - u - v], vertex_of[node - v], vertex_of[node],
                                        vertex_of[node - u]};
           if (to) std::swap(quad[1], quad[3]);  // counter-clockwise seen from outside
-          add_quad(mesh, quad);
+          add_quad(mesh, directions, quad);
         }
       }
   return mesh;
@@ -139,8 +206,13 @@ TriangleSoup extract_isosurface(const Implicit& surface, const Vec3& low, const 
                                 double level, Context& context) {
   NodeGrid grid = make_node_grid(low - Vec3::Constant(level), high + Vec3::Constant(level), spacing);
   fill(grid, surface, level, context);
-  return surface_net(
-      grid, [&](const Vec3& p) { return project(surface, p, spacing); }, context);
+  resolve_ambiguities(grid);
+  return surface_net(grid, [&](std::vector<Vec3>& positions) {
+    context.parallel_for(positions.size(), 1024, [&](std::size_t first, std::size_t last) {
+      for (std::size_t v = first; v < last; ++v) positions[v] = project(surface, positions[v], spacing);
+    });
+    return std::vector<Vec3>();
+  });
 }
 
 bool is_closed_manifold(const TriangleSoup& mesh) {

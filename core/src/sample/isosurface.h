@@ -29,10 +29,14 @@ struct NodeGrid {
 /// \throw std::length_error  more nodes than fit into 2^31
 NodeGrid make_node_grid(const Vec3& low, const Vec3& high, double spacing);
 
+/// Moves the vertices and returns for each its outward direction, or nothing.
+using PlaceVertices = std::function<std::vector<Vec3>(std::vector<Vec3>& positions)>;
+
 /// Surface nets (Gibson 1998): one vertex for each cell that the surface crosses, at the mean of the points where it
-/// crosses the cell's edges; one quadrilateral for each grid edge it crosses, cut along its shorter diagonal. The outer
-/// nodes must lie outside. \param place  moves the vertices before the quadrilaterals are cut; may be empty
-TriangleSoup surface_net(const NodeGrid& grid, const std::function<Vec3(const Vec3&)>& place, Context& context);
+/// crosses the cell's edges, then moved by `place`; one quadrilateral for each grid edge it crosses, cut along the
+/// diagonal whose triangles agree better with the vertices' directions, without them along the shorter one. The outer
+/// nodes must lie outside.
+TriangleSoup surface_net(const NodeGrid& grid, const PlaceVertices& place);
 
 /// Surface nets (Gibson 1998) on a cubic grid of the given spacing: one vertex for each cell that the surface
 /// crosses, moved onto the surface along the gradient; one quadrilateral for each grid edge it crosses, cut along its

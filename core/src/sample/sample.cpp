@@ -37,6 +37,15 @@ double to_number(const std::string& text) {
   return value;
 }
 
+const SampleKind& find_kind(const std::vector<SampleKind>& kinds, const std::string& name) {
+  std::vector<std::string> names;
+  for (const SampleKind& kind : kinds) {
+    if (kind.name == name) return kind;
+    names.push_back(kind.name);
+  }
+  throw UsageError(fmt::format("sample kind '{}' is not known: {}", name, name_remedy(name, names)));
+}
+
 void check_request(const SampleRequest& request) {
   if (request.faces < 500 || request.faces > 2000000)
     throw UsageError(fmt::format("{}: faces is {}: it must lie between 500 and 2000000; the default is 20000",
@@ -112,15 +121,6 @@ void add_noise(std::vector<Vec3>& positions, const Implicit& surface, const Samp
 }
 
 }  // namespace
-
-SampleKind find_kind(const std::vector<SampleKind>& kinds, const std::string& name) {
-  std::vector<std::string> names;
-  for (const SampleKind& kind : kinds) {
-    if (kind.name == name) return kind;
-    names.push_back(kind.name);
-  }
-  throw UsageError(fmt::format("sample kind '{}' is not known: {}", name, name_remedy(name, names)));
-}
 
 void mark_vertices(SampleFeature& feature, const std::vector<Vec3>& positions) {
   std::set<Index> taken;

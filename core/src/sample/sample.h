@@ -69,10 +69,11 @@ struct SampleFeature {
 
 /// How an object was scanned (scan.h).
 struct ScanRecord {
-  Index viewpoints = 0, seen_from = 0;  ///< seen_from 0: all
-  double noise_rel = 0;                 ///< standard deviation along the ray, in diagonals of the object's box
-  int smoothing = 0;                    ///< passes of Taubin's filter
-  double spacing = 0;                   ///< of the grid
+  Index viewpoints = 0;
+  bool partial = false;  ///< what they did not see is missing
+  double noise_rel = 0;  ///< standard deviation along the ray, in diagonals of the object's box
+  int smoothing = 0;     ///< passes of Taubin's filter
+  double spacing = 0;    ///< of the grid
   std::array<Vec3, 3> rotation = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};  ///< rows: scan = rotation * object
   Vec3 translation = Vec3::Zero();                                               ///< + translation
 };
@@ -86,7 +87,7 @@ struct Sample {
   std::vector<SampleFeature> features;
   std::vector<std::string> part_names;
   std::vector<std::uint8_t> face_part;  ///< for each triangle an index into part_names
-  double thinnest = 0;                  ///< least thickness of material or gap; 0: not known
+  double thinnest = 0, gap = 0;         ///< least thickness of material, least gap between parts; 0: not known
   std::optional<ScanRecord> scan;
 };
 

@@ -24,10 +24,10 @@ namespace {
 void check(const ScanSettings& settings) {
   const auto refuse = [](const std::string& what) { throw UsageError("scan: " + what); };
   if (settings.viewpoints < 4 || settings.viewpoints > 1000)
-    refuse(fmt::format("viewpoints is {}: it must lie between 4 and 1000; the default is 20", settings.viewpoints));
-  if (settings.seen_from > settings.viewpoints)
-    refuse(fmt::format("seen from {} viewpoints of {}: ask for fewer, or for more viewpoints", settings.seen_from,
-                       settings.viewpoints));
+    refuse(fmt::format("viewpoints is {}: it must lie between 4 and 1000; the default is 60", settings.viewpoints));
+  if (settings.seen_from > 1000)
+    refuse(
+        fmt::format("seen from {} viewpoints: it must be at most 1000; 4 show most of one side", settings.seen_from));
   if (!(settings.noise_rel >= 0 && settings.noise_rel <= 0.02))
     refuse(fmt::format("noise is {} box diagonals: it must lie between 0 and 0.02; the default is 0.0005",
                        settings.noise_rel));
@@ -57,10 +57,10 @@ double area_of(const TriangleSoup& mesh) {
   return area;
 }
 
-/// The N directions nearest to a random one.
+/// All around, or over the half sphere about `side`.
 std::vector<Vec3> chosen_directions(const ScanSettings& settings, const Vec3& side) {
-  std::vector<Vec3> directions = spread_directions(settings.viewpoints);
-  if (settings.seen_from == 0) return directions;
+  if (settings.seen_from == 0) return spread_directions(settings.viewpoints);
+  std::vector<Vec3> directions = spread_directions(2 * settings.seen_from);
   std::stable_sort(directions.begin(), directions.end(),
                    [&](const Vec3& a, const Vec3& b) { return a.dot(side) > b.dot(side); });
   directions.resize(settings.seen_from);
@@ -82,29 +82,33 @@ Eigen::Matrix3d random_rotation(Uniform& uniform) {
       .toRotationMatrix();
 }
 
-/// Half the thinnest part, so that no cell meets both sides of a wall; less for many faces, more for much noise.
-double grid_spacing(const Sample& exact, const ScanSettings& settings, double diagonal) {
+/// A net of cells half as large as the thinnest part is thick keeps both its sides. For thinner parts than `finest`
+/// cells bear it is laid a little outside them, as far as the gaps between parts allow. Noise does not make it coarser:
+/// many views average it out.
+DepthFusion fusion_for(const Sample& exact, const ScanSettings& settings, double diagonal) {
   constexpr double thinnest_allowed = 0.02;  // of the diagonal, where the sample does not tell
-  const double wall = exact.thinnest > 0 ? exact.thinnest : thinnest_allowed * diagonal;
+  const double thinnest = exact.thinnest > 0 ? exact.thinnest : thinnest_allowed * diagonal;
+  const double room = std::clamp((exact.gap - thinnest) / 4, 0.0, 0.75 * thinnest);
   const double edge = std::sqrt(4 / std::sqrt(3.0) * area_of(exact.mesh) / settings.faces);
-  return std::max(std::min(0.5 * wall, 0.75 * edge), 2 * settings.noise_rel * diagonal);
+  const double spacing = std::min(0.5 * (thinnest + 2 * room), 0.6 * edge);
+  return {.spacing = spacing, .level = std::max(0.0, spacing - thinnest / 2), .noise = settings.noise_rel * diagonal};
 }
 
-}  // namespace
-
-std::vector<Stations::Filter> scan_filters(PluginHost& host, const ScanSettings& settings) {
+/// The steps from the raw surface to the mesh.
+std::vector<Stations::Filter> filters_for(PluginHost& host, Index faces, int smoothing) {
   const auto plugin = [&](const std::string& id, const std::vector<GivenOption>& given) {
     const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id, "scan");
     return Stations::Filter{id, host.filter(id, check_options(manifest.options, given, "scan: filter '" + id + "'"))};
   };
-  // Normalising is the slow step: it gets few faces more than are wanted, and needs no more than three rounds for that.
-  return {plugin("taubin", {{"passes", std::to_string(settings.smoothing)}}),
-          {"thin", std::make_shared<Thin>(settings.faces + settings.faces / 3)},
-          plugin("normalise", {{"faces", std::to_string(settings.faces)}, {"rounds", "3"}})};
+  // Normalising is the slow step: it gets few faces more than are wanted, and needs no more than two rounds for that.
+  return {plugin("taubin", {{"passes", std::to_string(smoothing)}}),
+          {"thin", std::make_shared<Thin>(faces + faces / 4)},
+          plugin("normalise", {{"faces", std::to_string(faces)}, {"rounds", "2"}})};
 }
 
-Sample scan(const Sample& exact, const ScanSettings& settings, std::span<const Stations::Filter> filters,
-            Context& context) {
+}  // namespace
+
+Sample scan(const Sample& exact, const ScanSettings& settings, PluginHost& host, Context& context) {
   check(settings);
   const Extent extent = extent_of(exact.mesh.positions);
   const double diagonal = extent.diagonal();
@@ -118,30 +122,32 @@ Sample scan(const Sample& exact, const ScanSettings& settings, std::span<const S
   for (Vec3& p : posed.mesh.positions) p = rotation * (p - extent.center());
   double radius = 0;
   for (const Vec3& p : posed.mesh.positions) radius = std::max(radius, p.norm());
-  const double spacing = grid_spacing(exact, settings, diagonal);
-  const double noise = settings.noise_rel * diagonal;
+  const DepthFusion fusion = fusion_for(exact, settings, diagonal);
+  const double spacing = fusion.spacing, noise = fusion.noise;
   const std::vector<DepthView> views =
       scan_depths(posed.mesh, chosen_directions(settings, side),
                   {.pixel = spacing / 2, .distance = 3 * radius, .noise = noise, .seed = settings.seed}, context);
   const Extent box = extent_of(posed.mesh.positions);
   const Vec3 margin = Vec3::Constant(4 * noise);
-  const NodeGrid grid = fuse_depths(views, {.spacing = spacing, .behind = 1.7 * spacing, .noise = noise},
-                                    box.low - margin, box.high + margin, context);
-  TriangleSoup raw = surface_net(grid, {}, context);
-  if (settings.seen_from > 0) keep_measured(raw, views, spacing + 3 * noise, context);
-  keep_large_components(raw, settings.seen_from == 0);
+  TriangleSoup raw = fuse_depths(views, fusion, box.low - margin, box.high + margin, context);
+  const bool partial = settings.seen_from > 0;
+  if (partial) keep_measured(raw, views, spacing + 3 * noise, context);
+  keep_large_components(raw, !partial);
+  const std::string name = "the scan of the " + exact.kind;
+  if (raw.triangles.empty()) throw MeshError(name + ": nothing was seen; more viewpoints or less noise show something");
+  const double share = partial ? std::min(1.0, area_of(raw) / area_of(exact.mesh)) : 1;
+  const auto faces = static_cast<Index>(std::max(4.0, std::round(share * settings.faces)));
   raw.input_faces = static_cast<Index>(raw.triangles.size());
   raw.face_origin.resize(raw.triangles.size());
   std::iota(raw.face_origin.begin(), raw.face_origin.end(), Index{0});
-  const std::string name = "the scan of the " + exact.kind;
-  if (settings.seen_from > 0) repair(raw, name);
+  if (partial) repair(raw, name);
   const Mesh surface(std::move(raw), name, &context);
-  const PreparedMesh prepared = apply_filters(surface, filters, context);
+  const PreparedMesh prepared = apply_filters(surface, filters_for(host, faces, settings.smoothing), context);
 
-  Sample made = scanned_truth(posed, prepared.view(), {rotation, extent.center(), to},
-                              settings.seen_from > 0 ? 3 * spacing : 0, context);
-  made.scan = ScanRecord{.viewpoints = settings.viewpoints,
-                         .seen_from = settings.seen_from,
+  Sample made =
+      scanned_truth(posed, prepared.view(), {rotation, extent.center(), to}, partial ? 3 * spacing : 0, context);
+  made.scan = ScanRecord{.viewpoints = partial ? settings.seen_from : settings.viewpoints,
+                         .partial = partial,
                          .noise_rel = settings.noise_rel,
                          .smoothing = settings.smoothing,
                          .spacing = spacing,

@@ -105,7 +105,7 @@ void keep_large_components(TriangleSoup& mesh, bool closed) {
   const std::size_t largest = faces.empty() ? 0 : *std::max_element(faces.begin(), faces.end());
   std::erase_if(mesh.triangles, [&](const Triangle& t) {
     const Index c = component[t[0]];
-    return 100 * faces[c] < largest || (closed && volume[c] <= 0);
+    return 20 * faces[c] < largest || (closed && volume[c] <= 0);
   });
   drop_unused_vertices(mesh);
 }
@@ -115,6 +115,7 @@ Sample scanned_truth(const Sample& posed, const MeshView& mesh, const Pose& pose
   made.kind = posed.kind;
   made.parameters = posed.parameters;
   made.thinnest = posed.thinnest;
+  made.gap = posed.gap;
   made.part_names = posed.part_names;
   made.mesh.positions.assign(mesh.positions.begin(), mesh.positions.end());
   made.mesh.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());

@@ -14,7 +14,7 @@ namespace toposcope {
 /// Drops the faces of which a vertex was not measured within `tolerance` by any of the views.
 void keep_measured(TriangleSoup& mesh, std::span<const DepthView> views, double tolerance, Context& context);
 
-/// Drops pieces with less than a hundredth of the largest one's faces, vertices that no face uses, and, of closed
+/// Drops pieces with less than a twentieth of the largest one's faces, vertices that no face uses, and, of closed
 /// surfaces, those of hollows.
 void keep_large_components(TriangleSoup& mesh, bool closed);
 

@@ -29,18 +29,18 @@ struct Solid {
 /// How far outside the surface its net is laid: thin material comes out whole on a coarser grid there, and gaps become
 /// narrower.
 inline double net_level(const Solid& solid) {
-  return std::clamp((solid.gap - solid.thinnest) / 4, 0.0, 0.75 * solid.thinnest);
+  return std::clamp((solid.gap - solid.thinnest) / 4, 0.0, 1.25 * solid.thinnest);
 }
 
 /// Values of all parameters of a kind, in the order of its table.
 using ParameterValues = std::vector<std::pair<std::string, double>>;
 
-/// \throw UsageError  there is none of that name
-SampleKind find_kind(const std::vector<SampleKind>& kinds, const std::string& name);
-
 /// Fills in the defaults and checks names and ranges. \throw UsageError
 ParameterValues check_parameters(const SampleKind& kind, const std::map<std::string, double>& given);
 /// All parameters of what is asked for, from its preset, drawn at random or as given. \throw UsageError
+ParameterValues requested_parameters(const SampleRequest& request);
+
+/// Values of all parameters for a request: given, of its preset, drawn, default. \throw UsageError  as make_sample does
 ParameterValues requested_parameters(const SampleRequest& request);
 
 /// Builds the exact solid of a kind. \throw UsageError  parameters that contradict each other

@@ -58,7 +58,7 @@ Json scan_json(const ScanRecord& scan) {
   Json rotation = Json::array();
   for (const Vec3& row : scan.rotation) rotation.push_back(triple(row));
   return {{"viewpoints", scan.viewpoints},
-          {"seen_from", scan.seen_from},
+          {"partial", scan.partial},
           {"noise_rel", scan.noise_rel},
           {"smoothing", scan.smoothing},
           {"spacing", scan.spacing},

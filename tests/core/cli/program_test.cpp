@@ -158,6 +158,9 @@ TEST_F(Program, BadUsageIsExplained) {
       {"run " + mesh("cup") + " --model cup --set worksets.growth=99", "4"},
       {"run " + mesh("cup") + " --model cup --set nonsense", "station.option=value"},
       {"plugins describe circl", "circle"},
+      {"sample cup --preset teacpu -o x.ply", "teacup"},
+      {"sample cup --preset mug --random -o x.ply", "exclude"},
+      {"sample cup --set handle_shape=dee -o x.ply", "ear"},
       {"sample cupp -o x.ply", "cup"},
       {"run --threads 5000 --model cup " + mesh("cup"), "threads"},
   };

@@ -184,7 +184,7 @@ TEST(Airplane, RefusesWhatDoesNotFit) {
   };
   refused({{"engines", 3}}, "engines is 3");
   refused({{"engines", 5}}, "between 0 and 4");
-  refused({{"engines", 2}, {"engine_drop", 3}}, "engine_drop is 3");
+  refused({{"engines", 2}, {"engine_drop", 4}}, "engine_drop is 4");
   refused({{"wing_height", 6}}, "wing_height is 6");
   refused({{"fin_position", 90}}, "fin_position is 90");
   refused({{"wing_position", 70}}, "move the wing forward");

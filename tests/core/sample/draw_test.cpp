@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "base/errors.h"
@@ -86,6 +88,31 @@ TEST_P(RandomSample, PresetsAreValidAndTypical) {
     const auto values = preset_parameters(*kind_, preset.name, {});
     EXPECT_TRUE(make_solid(kind_->name, check_parameters(*kind_, values)).typical) << preset.name;
   }
+}
+
+TEST_P(RandomSample, SwitchesAndChoicesKeepTheirShares) {
+  std::map<std::string, double> sum;
+  constexpr int count = 400;
+  for (int seed = 1; seed <= count; ++seed)
+    for (const auto& [name, value] : draw_parameters(*kind_, {}, static_cast<std::uint64_t>(seed))) sum[name] += value;
+  for (const OptionRow& row : kind_->parameters)
+    for (const RandomRange& range : kind_->ranges)
+      if (range.name == row.name && row.type == OptionType::boolean && row.name != "engines_at_rear") {
+        EXPECT_NEAR(sum[row.name] / count, range.high, 0.1) << row.name;
+      }
+}
+
+TEST_P(RandomSample, PageTellsDefaultsAndRanges) {
+  std::ifstream file(std::string(TOPOSCOPE_SOURCE_DIR) + "/docs/sample.md");
+  std::string page((std::istreambuf_iterator<char>(file)), {});
+  std::erase_if(page, [](char c) { return c == '`'; });
+  for (const OptionRow& row : kind_->parameters) {
+    const std::string line =
+        "| " + row.name + " | " + row.default_value + " | " + describe_range(*kind_, row.name) + " |";
+    EXPECT_NE(page.find(line), std::string::npos) << line;
+  }
+  for (const SamplePreset& preset : kind_->presets)
+    EXPECT_NE(page.find(preset.name + " (" + preset.summary), std::string::npos) << preset.name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RandomSample,

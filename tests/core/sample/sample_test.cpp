@@ -168,6 +168,21 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"socket_tee_5k", "tee", 5000, {{"socket", 1}, {"run_length", 140}, {"branch_length", 70}}, -2}),
     [](const auto& parameter) { return std::string(parameter.param.name); });
 
+TEST(Sample, EveryPresetIsAGoodMeshAndLiesWithItsTruthOnTheExactSurface) {
+  for (const SampleKind& kind : sample_kinds())
+    for (const SamplePreset& preset : kind.presets) {
+      SCOPED_TRACE(kind.name + " " + preset.name);
+      const Index faces = kind.name == "airplane" ? 10000 : 6000;
+      const Sample sample = make({.kind = kind.name, .faces = faces, .preset = preset.name});
+      const std::map<std::string, long> euler = {{"cup", 0},   {"tee", -2},       {"wye", -2},    {"cross", -4},
+                                                 {"elbow", 0}, {"tricorner", -2}, {"airplane", 2}};
+      const Solid solid = make_solid(kind.name, sample.parameters);
+      expect_good_mesh(sample, solid, {"", kind.name.c_str(), faces, {}, euler.at(kind.name)});
+      expect_truth_on_surface(sample, solid);
+      EXPECT_EQ(sample.face_part.size(), sample.mesh.triangles.size());
+    }
+}
+
 TEST(Sample, VolumeOfAGlassIsThatOfTwoFrustums) {
   const Sample sample = make({.kind = "cup", .parameters = {{"handle", 0}}});
   const auto frustum = [](double a, double b, double h) { return pi * h / 3 * (a * a + a * b + b * b); };
