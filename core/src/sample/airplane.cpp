@@ -141,6 +141,12 @@ double Airplane::fuselage_radius(double behind) const {
   return taper >= 1 ? radius : tail_radius + (radius - tail_radius) * std::max(0.0, taper);
 }
 
+Vec3 rear_engine(const Airplane& a) {
+  const double tail = std::min(a.fin_position, a.t_tail ? a.length : a.stabilizer_position);
+  const double behind = 0.5 * (a.wing_position + a.wing.root_chord + tail);
+  return {-behind, a.fuselage_radius(behind) + a.engine_drop, 0.3 * a.radius};
+}
+
 std::vector<Engine> port_engines(const Airplane& a) {
   std::vector<Engine> engines;
   const PlanePath nacelle = spindle(a.engine_length, a.engine_radius, 0.35 * a.engine_length, 0.5 * a.engine_length,
@@ -148,10 +154,8 @@ std::vector<Engine> port_engines(const Airplane& a) {
   for (int pair = 1; pair <= a.engines / 2; ++pair) {
     Vec3 center, hold;  // middle of the engine; where it is held
     if (a.rear_engines) {
-      const double behind =
-          0.5 * (a.wing_position + a.wing.root_chord + std::min(a.fin_position, a.stabilizer_position));
-      hold = Vec3(-behind, 0, 0.3 * a.radius);
-      center = hold + (a.fuselage_radius(behind) + a.engine_drop) * Vec3::UnitY();
+      center = rear_engine(a);
+      hold = Vec3(center.x(), 0, center.z());
     } else {
       const double along = a.wing.span * a.engine_station * pair;
       const double lead = a.wing.leading_edge(along);
@@ -193,7 +197,17 @@ std::vector<Engine> port_engines(const Airplane& a) {
 double engine_gap(const Airplane& a) {
   const double half_wing = a.wing.thickness * a.wing.chord(a.engine_station * a.wing.span) / 2;
   if (a.engines == 0 || a.engine_drop <= a.engine_radius) return a.radius;  // none, or within the wing
-  return std::min(a.radius, a.engine_drop - a.engine_radius - (a.rear_engines ? 0 : half_wing));
+  if (!a.rear_engines) return std::min(a.radius, a.engine_drop - a.engine_radius - half_wing);
+  double gap = std::min(a.radius, a.engine_drop - a.engine_radius);
+  const LiftingSurface wing(a.wing), stabilizer(a.stabilizer), fin(a.fin);
+  const Vec3 middle = rear_engine(a);
+  constexpr int steps = 12;
+  for (int i = 0; i <= steps; ++i) {
+    const Vec3 p = middle + a.engine_length * (static_cast<double>(i) / steps - 0.5) * Vec3::UnitX();
+    gap = std::min(
+        {gap, wing(p).value - a.engine_radius, stabilizer(p).value - a.engine_radius, fin(p).value - a.engine_radius});
+  }
+  return gap;
 }
 
 Solid make_airplane(const ParameterValues& parameters) {

@@ -31,7 +31,10 @@ struct Airplane {
 /// \throw UsageError
 void check_airplane(const Airplane& airplane);
 
-/// Least width of the gap between engines and what they hang on.
+/// Middle of the engine on the port side of the fuselage, half way between wing and tail.
+Vec3 rear_engine(const Airplane& airplane);
+
+/// Least width of the gap between engines and what they hang on or stand beside.
 double engine_gap(const Airplane& airplane);
 
 /// Half of a pair of engines on the port side, with what holds it.

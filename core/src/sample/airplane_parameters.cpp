@@ -48,12 +48,12 @@ std::vector<SamplePreset> airplane_presets() {
             {"tip_rounding", 0.2}}},
           {"beechcraft",
            "a jet: swept low wings, a T-tail, engines beside the fuselage",
-           {{"fuselage_radius", 5.4}, {"nose_length", 20},     {"tail_length", 38},     {"wing_position", 38},
+           {{"fuselage_radius", 5.4}, {"nose_length", 20},     {"tail_length", 38},     {"wing_position", 34},
             {"wing_span", 96},        {"wing_root_chord", 20}, {"wing_tip_chord", 9},   {"wing_sweep", 26},
             {"wing_dihedral", 5},     {"t_tail", 1},           {"fin_height", 23},      {"fin_position", 79},
             {"fin_sweep", 42},        {"fin_tip_chord", 11},   {"stabilizer_span", 36}, {"stabilizer_root_chord", 12},
-            {"stabilizer_sweep", 26}, {"engines", 2},          {"engines_at_rear", 1},  {"engine_drop", 5.8},
-            {"tip_rounding", 0.6}}}};
+            {"stabilizer_sweep", 26}, {"engines", 2},          {"engines_at_rear", 1},  {"engine_drop", 6.2},
+            {"engine_length", 11},    {"tip_rounding", 0.6}}}};
 }
 
 std::vector<RandomRange> airplane_ranges() {
@@ -175,21 +175,22 @@ void check_airplane(const Airplane& a) {
           "the wing must begin behind the nose (0.6 nose_length)", "move it back");
   require(a.fin_position + a.fin.root_chord <= a.length, kind, "fin_position", a.fin_position,
           "the fin's root must end before the fuselage does", "move it forward");
-  require(a.fin_position >= wing_end + a.fillet, kind, "fin_position", a.fin_position,
-          "the fin must begin behind the wing", "move the wing forward or the fin back");
+  require(a.fin_position >= wing_end + 2.2 * a.fillet, kind, "fin_position", a.fin_position,
+          "the fin must begin behind the wing, by 2.2 fillets", "move the wing forward or the fin back");
   require(a.fin.span >= a.radius + a.fillet + 0.5 * a.fin.tip_chord, kind, "fin_height", a.fin.span,
           "it must stand out of the fuselage by half a tip chord", "give a higher one");
   const double half_thick = a.stabilizer.thickness * a.stabilizer.root_chord / 2;
   if (!a.t_tail) {
-    require(a.stabilizer_position >= wing_end + a.fillet, kind, "stabilizer_position", a.stabilizer_position,
-            "the stabiliser must begin behind the wing", "move the wing forward or the stabiliser back");
+    require(a.stabilizer_position >= wing_end + 2.2 * a.fillet, kind, "stabilizer_position", a.stabilizer_position,
+            "the stabiliser must begin behind the wing, by 2.2 fillets",
+            "move the wing forward or the stabiliser back");
     require(a.stabilizer_position + a.stabilizer.root_chord <= a.length, kind, "stabilizer_position",
             a.stabilizer_position, "the stabiliser's root must end before the fuselage does", "move it forward");
     require(std::abs(a.stabilizer.origin.z()) <= 0.6 * a.fuselage_radius(a.stabilizer_position), kind,
             "stabilizer_height", a.stabilizer.origin.z(), "the stabiliser must meet the fuselage",
             "bring it closer to 0");
   } else {
-    require(a.stabilizer.origin.z() - half_thick >= a.radius + 2 * a.fillet, kind, "fin_height", a.fin.span,
+    require(a.stabilizer.origin.z() - half_thick >= a.radius + 2.2 * a.fillet, kind, "fin_height", a.fin.span,
             "the fin must lift the T-tail's stabiliser clear of the fuselage", "give a higher fin");
   }
   require(a.stabilizer.span >= 1.5 * a.radius || a.t_tail, kind, "stabilizer_span", 2 * a.stabilizer.span,
@@ -204,9 +205,9 @@ void check_airplane(const Airplane& a) {
     require(a.engines == 2, kind, "engines", a.engines, "at the rear there may be two", "give engines=2");
     require(a.engine_drop >= 2.2 * a.engine_radius && a.engine_drop <= 4 * a.engine_radius, kind, "engine_drop",
             a.engine_drop, "at the rear it must lie between 2.2 and 4 engine_radius", "choose it in that range");
-    const double room = std::min(a.fin_position, a.t_tail ? a.length : a.stabilizer_position) - wing_end;
-    require(room >= a.engine_length + 2 * a.fillet || a.wing_height < -0.3 * a.radius, kind, "engine_length",
-            a.engine_length, "engines at the rear need room between wing and tail", "give shorter ones or a low wing");
+    require(engine_gap(a) >= 0.7 * a.engine_radius, kind, "engine_length", a.engine_length,
+            "engines at the rear must clear wing and tail by 0.7 engine_radius",
+            "give shorter ones, a lower or less swept wing, or more room between wing and tail");
     return;
   }
   const double station = a.engine_station * a.wing.span, outermost = station * (a.engines / 2);

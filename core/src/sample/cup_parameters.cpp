@@ -81,8 +81,9 @@ void check_handle(const Cup& c) {
   require(around + c.fillet < 0.7 * c.side.radius(c.handle_center - half) &&
               around + c.fillet < 0.7 * c.side.radius(c.handle_center + half),
           kind, "handle_thickness", c.thickness, "the handle must be narrower than the cup", "give a thinner handle");
-  require(handle_gap(c) >= 0.4 * c.thickness, kind, "handle_reach", c.reach,
-          "the grip must clear the cup's side by 0.4 handle_thickness", "let it reach further");
+  require(handle_gap(c) >= std::max(0.4 * c.thickness, 2.2 * c.fillet), kind, "handle_reach", c.reach,
+          "the grip must clear the cup's side by 0.4 handle_thickness and 2.2 handle_fillet",
+          "let it reach further, or give a smaller fillet");
 }
 
 std::vector<SamplePreset> cup_presets() {

@@ -94,10 +94,20 @@ Implicit pipe_bore(const Fitting& t, const Pipe& pipe, double start) {
   return revolve(PlanePath(corners), Vec3::Zero(), pipe.direction);
 }
 
-/// The arc in which two pipes at right angles meet, with round ends that lie within the pipes.
-Implicit bend(const Vec3& u, const Vec3& v, double bend_radius, double radius) {
-  const double out = bend_radius * (1 + 1e-9);  // the arc takes all but a trace of both legs
-  return sweep(PlanePath({{out, 0}, {0, 0, bend_radius}, {0, out}}), Vec3::Zero(), u, v, radius);
+/// Two pipes at right angles and the arc between them: a part of a torus, between the planes where the pipes begin.
+Implicit bent(const Implicit& first, const Implicit& second, const Vec3& u, const Vec3& v, double bend, double radius) {
+  return [=, w = u.cross(v).eval()](const Vec3& p) -> Distance {
+    const double x = p.dot(u) - bend, y = p.dot(v) - bend, z = p.dot(w);
+    if (x >= 0 && y >= 0) {
+      const Distance a = first(p), b = second(p);
+      return a.value <= b.value ? a : b;
+    }
+    if (x >= 0) return first(p);
+    if (y >= 0) return second(p);
+    const double out = std::hypot(x, y), across = out - bend, length = std::hypot(across, z);
+    if (out <= 0 || length <= 0) return {-radius, w};
+    return {length - radius, across / (length * out) * (x * u + y * v) + z / length * w};
+  };
 }
 
 struct Skins {
@@ -106,17 +116,31 @@ struct Skins {
 
 Skins make_run(const Fitting& t, const Run& run) {
   const double start = t.bend.value_or(0);
-  Skins whole;
-  const auto join = [&](Implicit skin, Implicit bore) {
-    whole.skin = whole.skin ? unite(std::move(whole.skin), std::move(skin)) : std::move(skin);
-    whole.bore = whole.bore ? unite(std::move(whole.bore), std::move(bore)) : std::move(bore);
-  };
-  for (const Pipe& pipe : run.pipes) join(pipe_skin(t, pipe, start), pipe_bore(t, pipe, start));
-  if (t.bend) {
-    const Vec3 &u = run.pipes[0].direction, &v = run.pipes[1].direction;
-    join(bend(u, v, *t.bend, t.outer()), bend(u, v, *t.bend, t.bore));
-  }
-  return whole;
+  std::vector<Skins> pipes;
+  for (const Pipe& pipe : run.pipes) pipes.push_back({pipe_skin(t, pipe, start), pipe_bore(t, pipe, start)});
+  if (pipes.size() == 1) return pipes[0];
+  if (!t.bend) return {unite(pipes[0].skin, pipes[1].skin), unite(pipes[0].bore, pipes[1].bore)};
+  const Vec3 &u = run.pipes[0].direction, &v = run.pipes[1].direction;
+  return {bent(pipes[0].skin, pipes[1].skin, u, v, *t.bend, t.outer()),
+          bent(pipes[0].bore, pipes[1].bore, u, v, *t.bend, t.bore)};
+}
+
+/// Across the bore, and from the sockets, which stand out, to the pipes beside them.
+double narrowest_gap(const Fitting& t) {
+  double gap = t.bore;
+  if (!t.has_socket) return gap;
+  for (const Pipe& a : all_pipes(t))
+    for (const Pipe& b : all_pipes(t)) {
+      if (std::abs(a.direction.dot(b.direction)) > 0.99) continue;
+      const Implicit other = pipe_skin(t, b, t.bend.value_or(0));
+      const Vec3 aside = t.hub() * (b.direction - b.direction.dot(a.direction) * a.direction).normalized();
+      constexpr int steps = 8;
+      for (int i = 0; i <= steps; ++i) {
+        const Vec3 p = (a.length - t.hub_length() * i / steps) * a.direction + aside;
+        gap = std::min(gap, other(p).value);
+      }
+    }
+  return gap;
 }
 
 SampleFeature rim(const Fitting& t, const Pipe& pipe) {
@@ -163,7 +187,7 @@ SampleKind fitting_kind(const std::string& name, const std::string& summary, con
                                   {"socket", 0, 0.4},
                                   {"socket_radius", 1.1, 1.25, "bore_radius"},
                                   {"socket_depth", 0.45, 1, "bore_radius"},
-                                  {"fillet", 0.1, 0.4, "bore_radius"},
+                                  {"fillet", 0.08, 0.3, "bore_radius"},
                                   {"edge_rounding", 0.12, 0.4, "wall"}};
   all.insert(all.end(), ranges.begin(), ranges.end());
   return {name,
@@ -218,7 +242,11 @@ Solid make_fitting(const Fitting& t) {
     solid.features.push_back({"rim" + std::to_string(i + 1), "circle", {}, {}, {}, {}});
   solid.thinnest = t.wall;
   solid.thinnest_parameter = "wall";
-  solid.gap = t.bore;
+  solid.gap = narrowest_gap(t);
+  if (t.has_socket && !t.bend)
+    require(solid.gap >= 2.2 * t.fillet, t.kind, "fillet", t.fillet,
+            fmt::format("the sockets must stand 2.2 fillets from each other, now {}", solid.gap),
+            "give a smaller one, or longer pipes");
   solid.part_of = nearest_run(t, skins);
   return solid;
 }

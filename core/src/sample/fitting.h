@@ -20,7 +20,7 @@ struct Pipe {
   double per_length = 1;         ///< that parameter's share in the length: 0.5 where it spans two pipes
 };
 
-/// Pipes that go over into each other without a fillet: the two halves of a run, or a single branch.
+/// One or two pipes that go over into each other without a fillet: the halves of a run, or a single branch.
 struct Run {
   std::string part;
   std::vector<Pipe> pipes;

@@ -121,7 +121,7 @@ SampleKind tricorner_kind() {
       {length_parameter("leg1_length", "42", "0", "distance from where the axes meet to the end at +x"),
        length_parameter("leg2_length", "42", "0", "distance from where the axes meet to the end at +z"),
        length_parameter("leg3_length", "42", "0", "distance from where the axes meet to the end at -y")},
-      {{"leg1_length", 47}, {"leg2_length", 47}, {"leg3_length", 47}, {"socket_depth", 14}},
+      {{"leg1_length", 47}, {"leg2_length", 47}, {"leg3_length", 47}, {"socket_depth", 14}, {"fillet", 3}},
       {{"leg1_length", 2, 3.4, "bore_radius"},
        {"leg2_length", 2, 3.4, "bore_radius"},
        {"leg3_length", 2, 3.4, "bore_radius"}});

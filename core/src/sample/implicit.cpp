@@ -112,15 +112,27 @@ Implicit within_box(Implicit a, const Vec3& low, const Vec3& high, double margin
   };
 }
 
-Vec3 project(const Implicit& surface, Vec3 point, double scale) {
-  for (int i = 0; i < 30; ++i) {
+Foot settle(const Implicit& surface, Vec3 point, double tolerance) {
+  constexpr int most_steps = 60;
+  Vec3 last = point;
+  double last_value = 0;
+  for (int i = 0;; ++i) {
     const Distance d = surface(point);
-    if (std::abs(d.value) <= 1e-12 * scale) break;
     const double slope = d.gradient.squaredNorm();
-    if (slope < 1e-6) break;
-    point -= d.value / slope * d.gradient;
+    if (std::abs(d.value) <= tolerance || slope < 1e-6 || i == most_steps) return {point, d.gradient};
+    const bool overshot = d.value * last_value < 0 && std::abs(d.value) > 0.3 * std::abs(last_value);
+    const Vec3 here = point;
+    if (overshot)
+      point = last + last_value / (last_value - d.value) * (here - last);
+    else
+      point -= d.value / slope * d.gradient;
+    last = here;
+    last_value = d.value;
   }
-  return point;
+}
+
+Vec3 project(const Implicit& surface, const Vec3& point, double scale) {
+  return settle(surface, point, 1e-12 * scale).point;
 }
 
 Vec3 project_to_curve(const Implicit& f, const Implicit& g, Vec3 point) {

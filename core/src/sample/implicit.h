@@ -47,9 +47,16 @@ Implicit mirror_y(Implicit a);
 /// that to the box, which is a lower bound. `margin` must exceed the fillets that the solid is united with.
 Implicit within_box(Implicit a, const Vec3& low, const Vec3& high, double margin);
 
-/// Moves a point to the surface along the gradient. The residual falls below 1e-12 of `scale` unless the
-/// function is not a distance there.
-Vec3 project(const Implicit& surface, Vec3 point, double scale);
+struct Foot {
+  Vec3 point, gradient;
+};
+/// Moves a point near the surface along the gradient until the function is at most `tolerance` there. Where fillets are
+/// squeezed the function is steeper than its gradient says and steps overshoot: then it goes to where the function
+/// would vanish between the last two points.
+Foot settle(const Implicit& surface, Vec3 point, double tolerance);
+
+/// settle to 1e-12 of `scale`, unless the function is not a distance there.
+Vec3 project(const Implicit& surface, const Vec3& point, double scale);
 
 /// Moves a point to where two functions vanish, by least steps: the curve in which two surfaces meet.
 Vec3 project_to_curve(const Implicit& f, const Implicit& g, Vec3 point);

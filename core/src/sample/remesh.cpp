@@ -76,20 +76,6 @@ SizeField measure_sizes(const Halfedges& mesh, double greatest) {
   return sizes;
 }
 
-struct Landing {
-  Vec3 point, normal;
-};
-
-/// A point near the surface moved onto it, to a part of an edge: exact only once the vertices have found their places.
-Landing land(const Implicit& surface, Vec3 point, double tolerance) {
-  for (int i = 0;; ++i) {
-    const Distance d = surface(point);
-    const double slope = d.gradient.squaredNorm();
-    if (std::abs(d.value) <= tolerance || slope < 1e-6 || i == 8) return {point, d.gradient / std::sqrt(slope)};
-    point -= d.value / slope * d.gradient;
-  }
-}
-
 /// Least agreement of the faces that a collapse would leave.
 double agreement_after(const Halfedges& mesh, Halfedges::HalfedgeHandle collapse) {
   const auto gone = mesh.from_vertex_handle(collapse), kept = mesh.to_vertex_handle(collapse);
@@ -114,9 +100,9 @@ void split_edges(Halfedges& mesh, const Implicit& surface, double greatest) {
     const auto h = mesh.halfedge_handle(e, 0);
     const Point& p = mesh.point(mesh.from_vertex_handle(h));
     const Point& q = mesh.point(mesh.to_vertex_handle(h));
-    const Landing middle = land(surface, to_vec(0.5 * (p + q)), rough * greatest);
+    const Foot middle = settle(surface, to_vec(0.5 * (p + q)), rough * greatest);
     const auto v = mesh.add_vertex(to_point(middle.point));
-    mesh.set_normal(v, to_point(middle.normal));
+    mesh.set_normal(v, to_point(middle.gradient.normalized()));
     mesh.split(e, v);
   }
 }
@@ -238,8 +224,8 @@ void relax(Halfedges& mesh, const Implicit& surface, double greatest, Context& c
       if (!(weight > 0)) continue;
       Point step = sum / weight - here;
       step -= (step | normal) * normal;
-      const Landing landing = land(surface, to_vec(here + 0.7 * step), rough * greatest);
-      const Point there = to_point(landing.point), facing = to_point(landing.normal);
+      const Foot foot = settle(surface, to_vec(here + 0.7 * step), rough * greatest);
+      const Point there = to_point(foot.point), facing = to_point(foot.gradient.normalized());
       if ((here - there).sqrnorm() > 4 * step.sqrnorm() + rough * rough * greatest * greatest) continue;
       if ((facing | normal) < 0.5) continue;
       bool sound = true;

@@ -58,28 +58,53 @@ void check_request(const SampleRequest& request) {
                                  request.kind, request.preset));
 }
 
-/// Meshes the solid on a grid that resolves its thinnest part and gives more faces than asked for, and thins that.
-TriangleSoup mesh_solid(const Solid& solid, const SampleRequest& request, Context& context) {
-  const double faces = request.faces;
-  const double level = net_level(solid);
-  double spacing = 0.55 * (solid.thinnest + 2 * level);  // below 1 / sqrt(3): no cell meets both sides of a wall
-  TriangleSoup fine;
-  for (int attempt = 0; attempt < 8; ++attempt) {
+/// Faces that look inwards: where a net was drawn onto a surface that is too far from it, or too bent.
+bool is_folded(const TriangleSoup& mesh, const Implicit& surface, Context& context) {
+  std::vector<Vec3> normals(mesh.positions.size());
+  context.parallel_for(normals.size(), 1024, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v) normals[v] = surface(mesh.positions[v]).gradient;
+  });
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    const Vec3 &p = mesh.positions[t[0]], &q = mesh.positions[t[1]], &r = mesh.positions[t[2]];
+    return (q - p).cross(r - p).dot(normals[t[0]] + normals[t[1]] + normals[t[2]]) < 0;
+  });
+}
+
+/// A net that resolves the solid's thinnest part and has more faces than asked for. Thin material comes out whole on a
+/// coarser grid when the net is laid a little outside it; but gaps become narrower there, and hollows may fold.
+TriangleSoup fine_net(const Solid& solid, const SampleRequest& request, Context& context) {
+  // Of the thickness at the level: below 1 / sqrt(3) no cell meets both sides of a wall.
+  constexpr double cell = 0.55;
+  double level = net_level(solid);
+  double spacing = cell * (solid.thinnest + 2 * level);
+  for (int attempt = 0; attempt < 10; ++attempt) {
+    TriangleSoup fine;
     try {
       fine = extract_isosurface(solid.surface, solid.low, solid.high, spacing, level, context);
     } catch (const std::length_error&) {
       throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
                                    solid.thinnest_parameter, solid.thinnest));
     }
-    const double found = static_cast<double>(fine.triangles.size());
-    if (found < 1.2 * faces)
-      spacing *= std::sqrt(found / (1.35 * faces));
-    else if (!is_closed_manifold(fine))
+    const double found = static_cast<double>(fine.triangles.size()), wanted = request.faces;
+    if (found < 1.2 * wanted) {
+      spacing *= std::sqrt(found / (1.35 * wanted));
+      level = std::clamp((spacing / cell - solid.thinnest) / 2, 0.0, level);
+    } else if (!is_closed_manifold(fine)) {
       spacing *= 0.87;  // two sheets meet in one cell
-    else
-      break;
-    fine = {};
+    } else if (level > 0 && is_folded(fine, solid.surface, context)) {
+      level = level > 0.1 * solid.thinnest ? 0.5 * level : 0;
+      spacing = std::min(spacing, cell * (solid.thinnest + 2 * level));
+    } else {
+      return fine;
+    }
   }
+  return {};
+}
+
+/// Meshes the solid by a fine net, and thins that.
+TriangleSoup mesh_solid(const Solid& solid, const SampleRequest& request, Context& context) {
+  const double faces = request.faces;
+  const TriangleSoup fine = fine_net(solid, request, context);
   if (fine.triangles.empty())
     throw UsageError(fmt::format("{}: {} is {}: no grid resolves the object; give more", request.kind,
                                  solid.thinnest_parameter, solid.thinnest));
