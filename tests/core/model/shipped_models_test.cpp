@@ -131,7 +131,8 @@ TEST(ShippedModels, AllAreSoundAndCanBeShown) {
       EXPECT_TRUE(shows("\n  " + object.name + " ")) << object.name;
     for (const Relationship& relationship : model.relationships) {
       EXPECT_TRUE(shows("\n  " + relationship.name + " ")) << relationship.name;
-      EXPECT_TRUE(shows(" " + relationship.plugin + "(" + model.features[relationship.features[0]].name + ", "))
+      EXPECT_TRUE(shows(" " + relationship.plugin + "(" + model.features[relationship.features[0]].name +
+                        (relationship.features.size() > 1 ? ", " : ")")))
           << relationship.name;
     }
   }

@@ -39,15 +39,23 @@ TEST(Angle, SaysWhatTheKernelNeeds) {
 }
 
 TEST(Angle, PoseScaleAndOrderDoNotMatter) {
-  expect_invariant(*test::relation("angle"), circle_feature(Vec3::Zero(), Vec3::UnitZ(), 1),
-                   circle_feature(Vec3(1, 2, 3), at_angle(50), 2), 0);
+  const Arguments arguments(PluginKind::relations, "angle", {{"min", "60"}, {"max", "80"}});
+  const auto relation = test::relation("angle");
+  const Feature first = circle_feature(Vec3::Zero(), Vec3::UnitZ(), 1);
+  const Feature second = circle_feature(Vec3(1, 2, 3), at_angle(50), 2);
+  for (std::uint64_t seed = 0; seed <= 12; ++seed) {
+    const Motion motion = seed == 0 ? Motion{} : some_motion(seed);
+    EXPECT_NEAR(relate(*relation, first, second, motion, arguments.options()).residual, 10 * pi / 180, 1e-9);
+    EXPECT_NEAR(relate(*relation, second, first, motion, arguments.options()).residual, 10 * pi / 180, 1e-9);
+  }
 }
 
 TEST(Angle, MinMustNotExceedMaxAndShapesNeedADirection) {
   EXPECT_ANY_THROW(between(45, "60", "30"));
   Feature none = circle_feature(Vec3::Zero(), Vec3::UnitZ(), 1);
   none.shape.orientation = Orientation::none;
-  EXPECT_FALSE(relate(*test::relation("angle"), none, none).applicable);
+  const Arguments arguments(PluginKind::relations, "angle");
+  EXPECT_FALSE(relate(*test::relation("angle"), none, none, {}, arguments.options()).applicable);
 }
 
 }  // namespace
