@@ -4,12 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "toposcope/plugin.h"
 
 namespace {
 
 using namespace toposcope;
+
+constexpr double unlimited = 1e30;
+
+double radius_of(const FittedShape& shape) {
+  for (const Measure& measure : shape.measures)
+    if (measure.name == "radius") return measure.value;
+  return 0;
+}
 
 class AxisDistance final : public RelationTester {
  public:
@@ -18,21 +28,34 @@ class AxisDistance final : public RelationTester {
   RelationResult test(const RelationInput& input, const Options& arguments, Context& /*context*/) const override {
     const FittedShape& round = *input.features[0].shape;
     const FittedShape& beside = *input.features[1].shape;
-    const double low = arguments.real("min");
-    const double high = arguments.real("max");
-    if (low > high)
-      throw std::invalid_argument("axis-distance: min = " + std::to_string(low) + " is greater than max = " +
-                                  std::to_string(high) + ", no distance lies between; exchange them in the model");
+    for (const auto& [least, most] : {std::pair("min", "max"), std::pair("min_radii", "max_radii")})
+      if (arguments.real(least) > arguments.real(most))
+        throw std::invalid_argument(std::string("axis-distance: ") + least + " = " +
+                                    std::to_string(arguments.real(least)) + " is greater than " + most + " = " +
+                                    std::to_string(arguments.real(most)) +
+                                    ", no distance lies between; exchange them in the model");
     RelationResult result;
     if (round.orientation == Orientation::none) {
       result.applicable = false;
       result.why = "the first shape has no axis: it needs a direction or normal";
       return result;
     }
+    const bool in_radii = arguments.real("min_radii") > 0 || arguments.real("max_radii") < unlimited;
+    const double radius = radius_of(round);
+    if (in_radii && !(radius > 0)) {
+      result.applicable = false;
+      result.why = "the first shape has no measure 'radius' that the distance could be measured by";
+      return result;
+    }
+    const double diagonal = input.object_box.diagonal();
+    double low = arguments.real("min"), high = std::min(arguments.real("max"), diagonal);
+    if (in_radii) {
+      low = std::max(low, arguments.real("min_radii") * radius);
+      high = std::max(low, std::min(high, arguments.real("max_radii") * radius));
+    }
     const Vec3 arm = beside.centroid - round.centroid;
     const double along = arm.dot(round.direction);
     const double distance = (arm - along * round.direction).norm();
-    const double diagonal = input.object_box.diagonal();
     result.residual = std::max({0.0, low - distance, distance - high});
     result.tolerance = tolerance_rel_ * diagonal;
     result.sd = std::hypot(std::hypot(round.centroid_sd, beside.centroid_sd), along * round.direction_sd);
@@ -52,7 +75,10 @@ constexpr OptionSpec options[] = {
 };
 constexpr OptionSpec arguments[] = {
     {"min", OptionType::real, "length", "0", "0", "", "least distance of the second centroid from the first's axis"},
-    {"max", OptionType::real, "length", "", "0", "", "greatest distance of the second centroid from the first's axis"},
+    {"max", OptionType::real, "length", "1e30", "0", "",
+     "greatest distance of the second centroid from the first's axis"},
+    {"min_radii", OptionType::real, "radii", "0", "0", "", "least distance, in radii of the first feature"},
+    {"max_radii", OptionType::real, "radii", "1e30", "0", "", "greatest distance, in radii of the first feature"},
 };
 
 }  // namespace
