@@ -23,7 +23,8 @@ Json as_json(const MeshEvaluation& mesh) {
                                 {"distance", finite(judged.distance)},
                                 {"distance_edges", finite(judged.distance / mesh.judgement.mean_edge)},
                                 {"distance_diagonal", finite(judged.distance / mesh.judgement.diagonal)},
-                                {"probability", finite(judged.probability)}};
+                                {"probability", finite(judged.probability)},
+                                {"offered", finite(judged.offered)}};
   Json json = {{"name", mesh.name},   {"object", mesh.object},   {"variant", mesh.variant},
                {"faces", mesh.faces}, {"time_ms", mesh.time_ms}, {"features", features}};
   if (!mesh.error.empty()) json["error"] = mesh.error;

@@ -169,12 +169,13 @@ std::string failure(const MeshEvaluation& mesh) {
                     mesh.class_probability));
   for (const FeatureJudgement& judged : mesh.judgement.features)
     if (!is_right(judged.verdict))
-      add(fmt::format("{} {} ({:.2f})", judged.feature, word(judged, mesh.judgement), judged.probability));
+      add(fmt::format("{} {} ({:.2f}{})", judged.feature, word(judged, mesh.judgement), judged.probability,
+                      judged.offered > 1 ? ", not offered" : ""));
   return text;
 }
 
 Table failure_table(const Evaluation& evaluation) {
-  Table table{"What is not right, with its probability", {"mesh", ""}, {}, {}};
+  Table table{"What is not right, with its probability; not offered: no candidate was right", {"mesh", ""}, {}, {}};
   std::size_t more = 0;
   for (const MeshEvaluation& mesh : evaluation.meshes) {
     if (evaluation.right(mesh)) continue;

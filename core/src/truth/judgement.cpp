@@ -78,6 +78,23 @@ class Judge {
     return judged;
   }
 
+  /// Least excess over all candidates of a feature.
+  double best_candidate(const Analysis& analysis, const Model& model, const TruthFeature& truth) const {
+    double best = std::numeric_limits<double>::infinity();
+    for (Index f = 0; f < model.features.size() && f < analysis.problem.variables.size(); ++f) {
+      if (model.features[f].name != truth.name) continue;
+      for (const Index candidate : analysis.problem.variables[f].candidates) {
+        FeatureReport report;
+        report.shape_plugin = model.features[f].shape.plugin;
+        report.shape = analysis.features.all[candidate].shape;
+        FeatureJudgement judged;
+        measure(report, truth, judged);
+        best = std::min(best, judged.excess);
+      }
+    }
+    return best;
+  }
+
  private:
   void measure(const FeatureReport& report, const TruthFeature& truth, FeatureJudgement& judged) const {
     const ShapeFitter& fitter = *stations_.shapes.at(report.shape_plugin);
@@ -155,6 +172,9 @@ Judgement judge(const Result& result, const Analysis& analysis, const Model& mod
       best_excess = excess;
     }
   }
+  for (FeatureJudgement& judged : best.features)
+    if (judged.verdict == Verdict::wrong || judged.verdict == Verdict::missed)
+      judged.offered = judge.best_candidate(analysis, model, *truth.find(judged.feature));
   best.mean_edge = scale.mean_edge;
   best.diagonal = scale.diagonal;
   return best;

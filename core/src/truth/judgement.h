@@ -36,10 +36,12 @@ struct FeatureJudgement {
   std::string feature;
   Verdict verdict = Verdict::absent;
   double distance =
-      std::numeric_limits<double>::quiet_NaN();              ///< mean, from the marks to what was labelled, mesh unit;
-                                                             ///< of ends the larger; not a number: nothing to measure
-  double excess = std::numeric_limits<double>::quiet_NaN();  ///< what was measured over its limit: right up to 1
-  double probability = 0;                                    ///< the result's, of what it said
+      std::numeric_limits<double>::quiet_NaN();               ///< mean, from the marks to what was labelled, mesh unit;
+                                                              ///< of ends the larger; not a number: nothing to measure
+  double excess = std::numeric_limits<double>::quiet_NaN();   ///< what was measured over its limit: right up to 1
+  double probability = 0;                                     ///< the result's, of what it said
+  double offered = std::numeric_limits<double>::quiet_NaN();  ///< wrong or missed: the excess of the best candidate
+                                                              ///< that the labeler could have chosen; up to 1: it could
 };
 
 struct Judgement {
