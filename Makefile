@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # make demo   install what is needed, build, label a cup and classify a tee
 # make test   install what is needed, build, run the tests
+# make evaluate   measure: made and real meshes against their truth, tables in evaluation/
 # make fuzz   fuzz the mesh readers, FUZZ_SECONDS for each format
 PRESET ?= release
 BUILD := build/$(PRESET)
@@ -8,7 +9,7 @@ TOPOSCOPE := $(BUILD)/bin/toposcope
 # Compiling Eigen and Ceres takes about 1 GB a job.
 JOBS ?= $(shell nproc)
 
-.PHONY: all deps configure demo test bench fuzz format lint clean
+.PHONY: all deps configure demo test evaluate bench fuzz format lint clean
 all: configure
 	cmake --build $(BUILD) -j $(JOBS)
 
@@ -29,6 +30,18 @@ demo: configure
 
 test: all
 	ctest --preset $(PRESET) -j $(JOBS)
+
+SETS := $(addprefix datasets/,$(addsuffix .yaml,five-cups five-fittings three-airplanes psb-cups psb-airplanes \
+  real-fittings raw-fittings resolution noise random-cups random-fittings random-airplanes))
+BASELINE_SETS := $(addprefix datasets/,$(addsuffix .yaml,five-cups five-fittings three-airplanes psb-cups psb-airplanes))
+# How good it is, from nothing; then the dissertation's pipeline and models on the same sets, as far as it has them.
+evaluate: configure
+	cmake --build $(BUILD) -j $(JOBS) --target program
+	$(TOPOSCOPE) evaluate $(SETS) --out evaluation
+	for set in $(BASELINE_SETS); do \
+	  $(TOPOSCOPE) evaluate $$set --pipeline neal-1999 --model neal-1999/$$(sed -n 's/^model: //p' $$set) \
+	    --out evaluation/neal-1999/$$(basename $$set .yaml); \
+	done
 
 # Speed beside other libraries; CGAL and VTK take part when libcgal-dev and libvtk9-dev are installed.
 bench: deps
@@ -64,4 +77,4 @@ lint: configure
 	git ls-files 'core/*.cpp' 'plugins/*.cpp' | xargs -P $(JOBS) -n 4 clang-tidy -p $(BUILD) --quiet
 
 clean:
-	rm -rf build demo
+	rm -rf build demo evaluation

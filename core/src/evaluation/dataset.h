@@ -23,7 +23,7 @@ struct DatasetMesh {
 
   std::string kind, preset;
   std::map<std::string, double> parameters;
-  bool random = false, scan = false;
+  bool random = false, scan = false, decimated = false;
   Index faces = 0, view = 0;
   std::optional<double> noise;
   std::uint64_t seed = 1;

@@ -86,6 +86,10 @@ class Reader {
     if (entry["noise"]) common.noise = entry["noise"].as<double>();
     if (entry["view"]) common.view = entry["view"].as<Index>();
     common.scan = entry["scan"] && entry["scan"].as<bool>();
+    common.decimated = entry["decimated"] && entry["decimated"].as<bool>();
+    if (common.scan && common.decimated)
+      errors_.add(location_of(entry["decimated"], file_.string()),
+                  "'scan' and 'decimated' exclude each other: leave one out");
     if (entry["set"])
       for (const auto& parameter : entry["set"])
         common.parameters[parameter.first.Scalar()] = parameter_value(parameter.second);
