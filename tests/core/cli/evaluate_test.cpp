@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "support/program.h"
+
+namespace toposcope::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+namespace fs = std::filesystem;
+
+class EvaluateCommand : public ::testing::Test {
+ protected:
+  std::string dataset(const std::string& meshes) {
+    write_text(folder_ / "set.yaml", "schema: toposcope.dataset/1\nname: set\nsummary: A small set\n" + meshes);
+    return (folder_ / "set.yaml").string();
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(EvaluateCommand, WritesTablesInFourForms) {
+  const std::string set = dataset("model: cup\nmeshes: [{kind: cup, preset: mug, faces: [4000], scan: true}]\n");
+  const std::string out = (folder_ / "out").string();
+  const Outcome outcome = toposcope("evaluate " + set + " --out " + out);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("A small set"));
+  EXPECT_THAT(outcome.out, HasSubstr("4 of 4 features right"));
+  EXPECT_THAT(read_text(out + "/evaluation.txt"), HasSubstr("mug"));
+  EXPECT_THAT(read_text(out + "/evaluation.md"), HasSubstr("| mug | rim |"));
+  EXPECT_THAT(read_text(out + "/evaluation.csv"), StartsWith("dataset,mesh,object,variant,faces,feature,verdict"));
+  const json result = json::parse(read_text(out + "/evaluation.json"));
+  EXPECT_EQ(result["schema"], "toposcope.evaluation/1");
+  EXPECT_EQ(result["datasets"][0]["features"]["all"]["right"], 4);
+
+  const Outcome again = toposcope("evaluate " + set + " --baseline " + out + "/evaluation.json");
+  EXPECT_THAT(again.out, HasSubstr("0 better, 0 worse"));
+}
+
+TEST_F(EvaluateCommand, AbsentMeshesAreLeftOutLoudly) {
+  const Outcome outcome =
+      toposcope("evaluate " + dataset("model: cup\nmeshes: [{files: none/*.off, optional: true}]\n"));
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("no file matches"));
+  EXPECT_THAT(outcome.out, HasSubstr("no meshes"));
+}
+
+TEST_F(EvaluateCommand, BadUsageNamesThePlace) {
+  for (const auto& [arguments, words] : std::vector<std::pair<std::string, std::string>>{
+           {"absent.yaml", "absent.yaml"},
+           {dataset("model: cupp\nmeshes: [{kind: cup, faces: [4000]}]\n"), "cup"},
+           {dataset("model: cup\nmeshes: [{kind: cup, faces: [4000]}]\n") + " --baseline absent.json", "absent.json"},
+           {dataset("model: cup\nmeshes: [{kind: cup, faces: [4000]}]\n") + " --json --csv", "exclud"}}) {
+    const Outcome outcome = toposcope("evaluate " + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_THAT(outcome.err, HasSubstr(words)) << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace toposcope::test

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation/dataset.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/errors.h"
+#include "support/program.h"
+
+namespace toposcope {
+namespace {
+
+using ::testing::HasSubstr;
+
+class DatasetFile : public ::testing::Test {
+ protected:
+  Dataset read(const std::string& meshes) {
+    test::write_text(folder_ / "set.yaml", "schema: toposcope.dataset/1\nname: set\nmodel: cup\n" + meshes);
+    return read_dataset(folder_ / "set.yaml");
+  }
+  std::string refusal(const std::string& meshes) {
+    try {
+      read(meshes);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(DatasetFile, FilesByPatternWithTheTruthBesideThem) {
+  std::filesystem::create_directory(folder_ / "cups");
+  for (const char* name : {"cups/b.off", "cups/a.off", "cups/a.truth.json", "cups/notes.txt"})
+    test::write_text(folder_ / name, "x");
+  const Dataset dataset = read("meshes: [{files: cups/*.off, class: mug}]\n");
+  ASSERT_EQ(dataset.meshes.size(), 2U);
+  EXPECT_EQ(dataset.meshes[0].file, folder_ / "cups/a.off") << "in the order of their names";
+  EXPECT_EQ(dataset.meshes[0].truth, folder_ / "cups/a.truth.json");
+  EXPECT_EQ(dataset.meshes[0].class_name, "mug");
+  EXPECT_EQ(dataset.meshes[1].truth, "");
+  EXPECT_FALSE(dataset.by_class);
+}
+
+TEST_F(DatasetFile, OptionalFilesThatAreAbsentAreTold) {
+  const Dataset dataset = read("meshes: [{files: nowhere/*.off, optional: true}]\n");
+  EXPECT_TRUE(dataset.meshes.empty());
+  ASSERT_EQ(dataset.absent.size(), 1U);
+  EXPECT_THAT(dataset.absent[0], HasSubstr("nowhere/*.off"));
+  EXPECT_THAT(refusal("meshes: [{files: nowhere/*.off}]\n"), HasSubstr("set.yaml:4:18: no file matches"));
+}
+
+TEST_F(DatasetFile, ObjectsForEachKindDrawAndNumberOfFaces) {
+  const Dataset dataset = read(
+      "seed: 7\njudge: class\nmeshes:\n"
+      "  - {kind: [tee, wye], random: 3, faces: [5000, 700], scan: true, view: 2, noise: 0.01}\n"
+      "  - {kind: cup, preset: mug, faces: [10000], set: {wall: 3, handle: false}}\n");
+  ASSERT_EQ(dataset.meshes.size(), 7U);
+  EXPECT_TRUE(dataset.by_class);
+  EXPECT_EQ(dataset.meshes[0].name, "tee 7 5K");
+  EXPECT_EQ(dataset.meshes[1].name, "tee 7 700");
+  EXPECT_EQ(dataset.meshes[2].name, "wye 8 5K") << "kinds take turns, seeds count up";
+  EXPECT_EQ(dataset.meshes[4].kind, "tee");
+  EXPECT_EQ(dataset.meshes[4].seed, 9U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_TRUE(dataset.meshes[i].random && dataset.meshes[i].scan);
+    EXPECT_EQ(dataset.meshes[i].view, 2U);
+    EXPECT_EQ(dataset.meshes[i].noise, 0.01);
+  }
+  const DatasetMesh& mug = dataset.meshes[6];
+  EXPECT_EQ(mug.object, "mug");
+  EXPECT_EQ(mug.variant, "10K");
+  EXPECT_FALSE(mug.random);
+  EXPECT_FALSE(mug.noise);
+  EXPECT_EQ(mug.parameters, (std::map<std::string, double>{{"handle", 0}, {"wall", 3}}));
+}
+
+TEST_F(DatasetFile, RefusalsNameThePlaceAndTheRemedy) {
+  for (const auto& [meshes, words] : std::vector<std::pair<std::string, std::string>>{
+           {"", "'meshes'"},
+           {"meshes: []\n", "set.yaml:4:"},
+           {"meshes: [{kind: cup}]\n", "set.yaml:4:"},
+           {"meshes: [{kind: cup, faces: [10]}]\n", "set.yaml:4:"},
+           {"meshes: [{kind: cup, faces: [5000], colour: red}]\n", "set.yaml:4:"},
+           {"judge: taste\nmeshes: [{kind: cup, faces: [5000]}]\n", "known are: features, class"},
+           {"meshes: [{kind: cup, faces: [5000], scan: true, decimated: true}]\n", "exclude each other"}})
+    EXPECT_THAT(refusal(meshes), HasSubstr(words)) << meshes;
+  EXPECT_THROW(read_dataset(folder_ / "absent.yaml"), UsageError);
+}
+
+}  // namespace
+}  // namespace toposcope
