@@ -98,8 +98,8 @@ ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeat
   posed.first_cost = posed.outcome.labelings.front().cost;
   posed.least_cost = forbidden;
   for (const Labeling& labeling : posed.outcome.labelings) posed.least_cost = std::min(posed.least_cost, labeling.cost);
-  const auto names = renamings(
-      {model, posed.features, posed.relationships, solver.stations.relation_ordered, model.classes.empty()});
+  const auto names =
+      renamings({model, posed.features, posed.relationships, solver.stations.relation_ordered, model.classes.empty()});
   // What differs in names that mean the same is one explanation, not several.
   posed.log_evidence = posed.outcome.log_evidence - std::log(static_cast<double>(names.size()));
   const auto orbits = orbits_of(names);

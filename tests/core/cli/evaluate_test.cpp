@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 class EvaluateCommand : public ::testing::Test {
  protected:
-  std::string dataset(const std::string& meshes) {
-    write_text(folder_ / "set.yaml", "schema: toposcope.dataset/1\nname: set\nsummary: A small set\n" + meshes);
-    return (folder_ / "set.yaml").string();
+  std::string dataset(const std::string& meshes, const std::string& name = "set.yaml") {
+    write_text(folder_ / name, "schema: toposcope.dataset/1\nname: set\nsummary: A small set\n" + meshes);
+    return (folder_ / name).string();
   }
   TemporaryFolder folder_;
 };
@@ -53,7 +53,7 @@ TEST_F(EvaluateCommand, AbsentMeshesAreLeftOutLoudly) {
 TEST_F(EvaluateCommand, BadUsageNamesThePlace) {
   for (const auto& [arguments, words] : std::vector<std::pair<std::string, std::string>>{
            {"absent.yaml", "absent.yaml"},
-           {dataset("model: cupp\nmeshes: [{kind: cup, faces: [4000]}]\n"), "cup"},
+           {dataset("model: cupp\nmeshes: [{kind: cup, faces: [4000]}]\n", "cupp.yaml"), "cup"},
            {dataset("model: cup\nmeshes: [{kind: cup, faces: [4000]}]\n") + " --baseline absent.json", "absent.json"},
            {dataset("model: cup\nmeshes: [{kind: cup, faces: [4000]}]\n") + " --json --csv", "exclud"}}) {
     const Outcome outcome = toposcope("evaluate " + arguments);
