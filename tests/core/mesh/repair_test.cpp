@@ -2,133 +2,20 @@
 
 // Repair on damage whose right answer is known, and on random soups against a brute-force check of what is promised.
 
-#include "mesh/repair.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <random>
-#include <set>
 
 #include "base/errors.h"
-#include "support/meshes.h"
+#include "repair_fixture.h"
 
 namespace toposcope {
 namespace {
 
-TriangleSoup soup_of(std::vector<Vec3> positions, std::vector<Triangle> triangles) {
-  TriangleSoup soup;
-  soup.positions = std::move(positions);
-  soup.triangles = std::move(triangles);
-  soup.input_faces = static_cast<Index>(soup.triangles.size());
-  for (Index f = 0; f < soup.input_faces; ++f) soup.face_origin.push_back(f);
-  return soup;
-}
-
-/// Both in one, each with its own vertices.
-TriangleSoup together(const TriangleSoup& a, const TriangleSoup& b) {
-  TriangleSoup soup = soup_of(a.positions, a.triangles);
-  soup.positions.insert(soup.positions.end(), b.positions.begin(), b.positions.end());
-  std::vector<Triangle> triangles = a.triangles;
-  const auto shift = static_cast<Index>(a.positions.size());
-  for (const Triangle& t : b.triangles) triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
-  return soup_of(std::move(soup.positions), std::move(triangles));
-}
-
-TriangleSoup cube_at(const Vec3& corner) {
-  TriangleSoup cube = test::make_box({1, 1, 1});
-  for (Vec3& p : cube.positions) p += corner + Vec3(0.5, 0.5, 0.5);
-  return cube;
-}
-
-TriangleSoup moved_together(TriangleSoup soup) {  // one vertex a place
-  std::map<std::array<double, 3>, Index> number;
-  std::vector<Vec3> positions;
-  for (Triangle& t : soup.triangles)
-    for (Index& v : t) {
-      const Vec3& p = soup.positions[v];
-      const auto [place, isNew] = number.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(positions.size()));
-      if (isNew) positions.push_back(p);
-      v = place->second;
-    }
-  return soup_of(std::move(positions), std::move(soup.triangles));
-}
-
-TriangleSoup separated(const TriangleSoup& soup) {  // three vertices a face
-  std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;
-  for (const Triangle& t : soup.triangles) {
-    const auto first = static_cast<Index>(positions.size());
-    for (Index v : t) positions.push_back(soup.positions[v]);
-    triangles.push_back({first, first + 1, first + 2});
-  }
-  return soup_of(std::move(positions), std::move(triangles));
-}
-
-double volume(const TriangleSoup& soup) {
-  double sum = 0;
-  for (const auto& [a, b, c] : soup.triangles)
-    sum += soup.positions[a].dot(soup.positions[b].cross(soup.positions[c])) / 6;
-  return sum;
-}
-double area(const TriangleSoup& soup) {
-  double sum = 0;
-  for (const auto& [a, b, c] : soup.triangles)
-    sum += (soup.positions[b] - soup.positions[a]).cross(soup.positions[c] - soup.positions[a]).norm() / 2;
-  return sum;
-}
-
-/// By brute force: every directed edge once, no edge of more than two faces, one fan around each vertex, every vertex
-/// used.
-void expect_oriented_manifold(const TriangleSoup& soup, const std::string& what) {
-  std::set<std::pair<Index, Index>> directed;
-  std::map<Index, std::vector<std::pair<Index, Index>>> links;  // around each vertex: from one neighbour to the next
-  for (const Triangle& t : soup.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_NE(t[k], t[(k + 1) % 3]) << what;
-      EXPECT_TRUE(directed.emplace(t[k], t[(k + 1) % 3]).second) << what << ": an edge twice in one direction";
-      links[t[k]].emplace_back(t[(k + 1) % 3], t[(k + 2) % 3]);
-    }
-  EXPECT_EQ(links.size(), soup.positions.size()) << what << ": a vertex without faces";
-  for (const auto& [v, steps] : links) {
-    std::map<Index, Index> next;
-    std::set<Index> entered;
-    for (const auto& [from, to] : steps) {
-      next[from] = to;
-      entered.insert(to);
-    }
-    ASSERT_EQ(next.size(), steps.size()) << what;
-    Index begin = steps.front().first;
-    for (const auto& [from, to] : steps)
-      if (!entered.contains(from)) begin = from;
-    std::size_t count = 0;
-    for (Index at = begin; next.contains(at) && count < steps.size(); ++count) at = next[at];
-    EXPECT_EQ(count, steps.size()) << what << ": vertex " << v << " has more than one fan";
-  }
-}
-
-void expect_same(const TriangleSoup& a, const TriangleSoup& b, const std::string& what) {
-  EXPECT_EQ(a.positions, b.positions) << what;
-  EXPECT_EQ(a.triangles, b.triangles) << what;
-  EXPECT_EQ(a.face_origin, b.face_origin) << what;
-}
-
-enum class Twice { same, same_unless_taken_apart };
-
-RepairReport repaired(TriangleSoup& soup, const std::string& what, Twice twice = Twice::same) {
-  const RepairReport report = repair(soup, what);
-  expect_oriented_manifold(soup, what);
-  TriangleSoup again = soup;
-  repair(again, what);
-  if (twice == Twice::same || !report.notable())
-    expect_same(again, soup, what + " repaired twice");
-  else
-    expect_oriented_manifold(again, what + " repaired twice");
-  return report;
-}
+using namespace test;
 
 TEST(Repair, LeavesCleanMeshesAsTheyAre) {
   const std::pair<const char*, TriangleSoup> meshes[] = {
@@ -210,86 +97,6 @@ TEST(Repair, KeepsACavityAndTurnsAShellThatIsInsideOut) {
   TriangleSoup alone = inner;
   EXPECT_EQ(repaired(alone, "inside out").turned_faces, inner.triangles.size());
   EXPECT_GT(volume(alone), 0);
-}
-
-TEST(Repair, SplitsCubesThatShareAnEdgeAndKeepsBothClosed) {
-  TriangleSoup soup = moved_together(together(cube_at({0, 0, 0}), cube_at({1, 1, 0})));
-  ASSERT_EQ(soup.positions.size(), 14U);
-  const RepairReport report = repaired(soup, "two cubes at an edge");
-  EXPECT_EQ(report.split_edges, 1U);
-  EXPECT_EQ(report.split_vertices, 2U);
-  EXPECT_EQ(report.closed_components, 2U);
-  EXPECT_EQ(soup.positions.size(), 16U);
-  EXPECT_NEAR(volume(soup), 2, 1e-12);
-  EXPECT_TRUE(report.notable());
-}
-
-TEST(Repair, SplitsCubesThatShareAVertex) {
-  TriangleSoup soup = moved_together(together(cube_at({0, 0, 0}), cube_at({1, 1, 1})));
-  const RepairReport report = repaired(soup, "two cubes at a vertex");
-  EXPECT_EQ(report.split_edges, 0U);
-  EXPECT_EQ(report.split_vertices, 1U);
-  EXPECT_EQ(report.closed_components, 2U);
-}
-
-TEST(Repair, PairsTheSheetsOfAnEdgeAroundTheirMaterial) {
-  // Three wedges of 60 degrees around one edge: six faces meet there.
-  std::vector<Vec3> positions = {{0, 0, 0}, {0, 0, 1}};
-  std::vector<Triangle> triangles;
-  for (int i = 0; i < 3; ++i) {
-    const double from = 2 * pi * i / 3, to = from + pi / 3;
-    const auto a = static_cast<Index>(positions.size()), b = a + 1;
-    positions.emplace_back(std::cos(from), std::sin(from), 0.5);
-    positions.emplace_back(std::cos(to), std::sin(to), 0.5);
-    for (const Triangle& t : {Triangle{0, a, 1}, Triangle{0, 1, b}, Triangle{0, b, a}, Triangle{1, a, b}})
-      triangles.push_back(t);
-  }
-  TriangleSoup soup = soup_of(positions, triangles);
-  const RepairReport report = repaired(soup, "three wedges");
-  EXPECT_EQ(report.split_edges, 1U);
-  EXPECT_EQ(report.components, 3U);
-  EXPECT_EQ(report.closed_components, 3U);
-  EXPECT_EQ(report.turned_faces, 0U);
-  EXPECT_NEAR(volume(soup), 3 * std::sqrt(3) / 12, 1e-12);
-}
-
-TEST(Repair, OpensABookAtItsBack) {
-  std::vector<Vec3> positions = {{0, 0, 0}, {0, 0, 1}};
-  std::vector<Triangle> triangles;
-  for (int page = 0; page < 9; ++page) {
-    positions.emplace_back(std::cos(0.3 * page), std::sin(0.3 * page), 0.5);
-    triangles.push_back({0, 1, static_cast<Index>(page + 2)});
-  }
-  TriangleSoup soup = soup_of(positions, triangles);
-  const RepairReport report = repaired(soup, "book");
-  EXPECT_EQ(report.split_edges, 1U);
-  EXPECT_EQ(soup.triangles.size(), 9U);
-  EXPECT_EQ(report.closed_components, 0U);
-}
-
-TEST(Repair, CutsAMoebiusStripOpen) {
-  std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;
-  const int n = 24;
-  for (int i = 0; i < n; ++i)
-    for (const double s : {-0.3, 0.0, 0.3}) {
-      const double u = 2 * pi * i / n;
-      positions.emplace_back((1 + s * std::cos(u / 2)) * std::cos(u), (1 + s * std::cos(u / 2)) * std::sin(u),
-                             s * std::sin(u / 2));
-    }
-  const auto at = [&](int i, int j) { return static_cast<Index>(i < n ? 3 * i + j : 2 - j); };
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < 2; ++j) {
-      triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  TriangleSoup soup = soup_of(positions, triangles);
-  const RepairReport report = repaired(soup, "Moebius strip");
-  EXPECT_EQ(report.cut_edges, 2U);
-  EXPECT_EQ(report.components, 1U);
-  EXPECT_EQ(report.holes, 1U);
-  EXPECT_EQ(report.euler, 1);  // a strip now, a disk
-  EXPECT_EQ(soup.triangles.size(), triangles.size());
 }
 
 TEST(Repair, DropsWhatIsTwiceThereOrNotThere) {
