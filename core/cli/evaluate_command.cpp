@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
-
-#include "base/errors.h"
+#include "base/text_file.h"
 #include "commands.h"
 #include "evaluation/evaluation.h"
 #include "io/mesh_io.h"
@@ -15,14 +12,6 @@
 
 namespace toposcope::cli {
 namespace {
-
-std::string read_baseline(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw UsageError("--baseline " + path.string() + ": cannot be read");
-  return text.str();
-}
 
 std::string title(const Evaluation& evaluation) {
   return evaluation.summary.empty() ? evaluation.dataset : evaluation.summary;
@@ -36,7 +25,8 @@ int evaluate(const EvaluateOptions& options) {
   for (const fs::path& file : options.datasets) datasets.push_back(read_dataset(file));
   for (Dataset& dataset : datasets)
     if (!options.model.empty()) dataset.model = options.model;
-  const std::string baseline = options.baseline.empty() ? "" : read_baseline(options.baseline);
+  const std::string baseline =
+      options.baseline.empty() ? "" : read_text_file(options.baseline, "--baseline: evaluation");
   if (!options.out.empty()) make_folder(options.out, "--out");
 
   std::vector<Evaluation> evaluations;

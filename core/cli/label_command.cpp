@@ -36,10 +36,6 @@ std::string value_name(const LabelingVariable& variable, Index value) {
   return variable.value_names.empty() ? std::to_string(value) : variable.value_names[value];
 }
 
-ordered_json finite(double number) {
-  return std::isfinite(number) ? ordered_json(number) : ordered_json();
-}
-
 ordered_json values_of(const LabelingProblem& problem, const Labeling& labeling) {
   ordered_json values;
   for (Index v = 0; v < problem.variables.size(); ++v) {
@@ -52,20 +48,21 @@ ordered_json values_of(const LabelingProblem& problem, const Labeling& labeling)
   return values;
 }
 
+// What is no finite number is written as null.
 std::string as_json(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& labeler,
                     double time_ms) {
   const bool found = !outcome.labelings.empty() && outcome.labelings[0].cost < forbidden;
   ordered_json root = {{"problem", problem.name},
                        {"labeler", labeler},
                        {"labeling", found ? values_of(problem, outcome.labelings[0]) : ordered_json()},
-                       {"cost", found ? finite(outcome.labelings[0].cost) : ordered_json()},
-                       {"lower_bound", finite(outcome.lower_bound)},
+                       {"cost", found ? ordered_json(outcome.labelings[0].cost) : ordered_json()},
+                       {"lower_bound", outcome.lower_bound},
                        {"optimal", outcome.optimal},
                        {"satisfiable", found             ? ordered_json(true)
                                        : outcome.optimal ? ordered_json(false)
                                                          : ordered_json()},
                        {"posteriors", ordered_json()},
-                       {"log_evidence", finite(outcome.log_evidence)},
+                       {"log_evidence", outcome.log_evidence},
                        {"nodes", outcome.nodes},
                        {"time_ms", time_ms},
                        {"guarantee", outcome.guarantee}};
@@ -74,7 +71,7 @@ std::string as_json(const LabelingProblem& problem, const LabelingOutcome& outco
   root["alternatives"] = ordered_json::array();
   for (std::size_t k = 1; k < outcome.labelings.size(); ++k)
     root["alternatives"].push_back(
-        {{"labeling", values_of(problem, outcome.labelings[k])}, {"cost", finite(outcome.labelings[k].cost)}});
+        {{"labeling", values_of(problem, outcome.labelings[k])}, {"cost", outcome.labelings[k].cost}});
   root["facts"] = ordered_json::object();
   for (const LabelingFact& fact : outcome.facts) root["facts"][fact.name] = fact.value;
   root["fallen"] = ordered_json::array();

@@ -75,6 +75,18 @@ struct FittedShape {
   double explained = 0;    ///< arc length (curves) or square root of area (surfaces) that has points, in mean edges
   double unexplained = 0;  ///< the same measure of the points that the shape leaves out
   double coverage = 1;     ///< part of the shape that has points, 0 to 1
+
+  /// By name; null where the shape has none of it.
+  const Measure* measure(std::string_view name) const { return named(measures, name); }
+  const ShapeParameter* parameter(std::string_view name) const { return named(parameters, name); }
+
+ private:
+  template <class Item>
+  static const Item* named(const std::vector<Item>& items, std::string_view name) {
+    for (const Item& item : items)
+      if (item.name == name) return &item;
+    return nullptr;
+  }
 };
 
 /// The points to fit and the lengths that give them scale.

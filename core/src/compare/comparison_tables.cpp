@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/csv.h"
 #include "compare/comparison.h"
 
 namespace toposcope {
@@ -13,10 +14,6 @@ using Json = nlohmann::ordered_json;
 
 std::string number(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
-}
-
-Json finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
 }
 
 std::string words(const std::vector<std::pair<std::string, Index>>& labelling) {
@@ -34,13 +31,7 @@ std::string gap_of(const Entry& entry) {
   return entry.proven ? "0" : number(entry.gap(), "{:.3g}");
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
-}
-
+// What is no finite number is written as null.
 Json as_json(const Entry& entry) {
   Json labelling = Json::object();
   for (const auto& [feature, candidate] : entry.labelling)
@@ -48,11 +39,11 @@ Json as_json(const Entry& entry) {
   return {{"labeler", entry.labeler},
           {"class", entry.class_name},
           {"labelling", labelling},
-          {"cost", finite(entry.cost)},
-          {"bound", finite(entry.bound)},
-          {"gap", finite(entry.gap())},
+          {"cost", entry.cost},
+          {"bound", entry.bound},
+          {"gap", entry.gap()},
           {"proven", entry.proven},
-          {"posterior", finite(entry.posterior)},
+          {"posterior", entry.posterior},
           {"time_ms", entry.time_ms},
           {"nodes", entry.nodes},
           {"right", entry.right ? Json(*entry.right) : Json()},
@@ -65,9 +56,9 @@ Json as_json(const Total& total) {
           {"meshes", total.meshes},
           {"proven", total.proven},
           {"unsound", total.unsound},
-          {"mean_gap", finite(total.mean_gap)},
-          {"worst_gap", finite(total.worst_gap)},
-          {"mean_posterior", finite(total.mean_posterior)},
+          {"mean_gap", total.mean_gap},
+          {"worst_gap", total.worst_gap},
+          {"mean_posterior", total.mean_posterior},
           {"median_ms", total.median_ms},
           {"worst_ms", total.worst_ms},
           {"nodes", total.nodes},
@@ -163,17 +154,17 @@ std::string to_csv(const std::vector<Comparison>& comparisons) {
   std::string text = "mesh,labeler,class,labelling,cost,gap,proven,posterior,time_ms,nodes,right,of,guarantee\n";
   for (const Comparison& comparison : comparisons)
     for (const Entry& entry : comparison.entries)
-      text +=
-          fmt::format("{},{},{},{},{},{},{},{},{:.4f},{},{},{},{}\n", quoted(comparison.mesh), quoted(entry.labeler),
-                      quoted(entry.class_name), quoted(words(entry.labelling)), plain(entry.cost),
-                      entry.proven ? "0" : plain(entry.gap()), entry.proven ? "yes" : "no", plain(entry.posterior),
-                      entry.time_ms, entry.nodes, entry.right ? std::to_string(*entry.right) : "",
-                      entry.of ? std::to_string(*entry.of) : "", quoted(entry.guarantee));
+      text += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{},{},{},{}\n", csv_field(comparison.mesh),
+                          csv_field(entry.labeler), csv_field(entry.class_name), csv_field(words(entry.labelling)),
+                          plain(entry.cost), entry.proven ? "0" : plain(entry.gap()), entry.proven ? "yes" : "no",
+                          plain(entry.posterior), entry.time_ms, entry.nodes,
+                          entry.right ? std::to_string(*entry.right) : "", entry.of ? std::to_string(*entry.of) : "",
+                          csv_field(entry.guarantee));
   for (const Total& total : totals(comparisons))
-    text += fmt::format(",{},,,,{},{} of {},{},{:.4f},{},{},{},{}\n", quoted(total.labeler), plain(total.mean_gap),
+    text += fmt::format(",{},,,,{},{} of {},{},{:.4f},{},{},{},{}\n", csv_field(total.labeler), plain(total.mean_gap),
                         total.proven, total.meshes, plain(total.mean_posterior), total.median_ms, total.nodes,
                         total.of > 0 ? std::to_string(total.right) : "", total.of > 0 ? std::to_string(total.of) : "",
-                        quoted("mean gap and posterior, median time, sums of nodes and right"));
+                        csv_field("mean gap and posterior, median time, sums of nodes and right"));
   return text;
 }
 

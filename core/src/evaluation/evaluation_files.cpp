@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/csv.h"
 #include "base/errors.h"
 #include "evaluation/evaluation.h"
 
@@ -12,19 +13,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
+// What is no finite number is written as null.
 Json as_json(const MeshEvaluation& mesh) {
   Json features = Json::object();
   for (const FeatureJudgement& judged : mesh.judgement.features)
     features[judged.feature] = {{"verdict", to_string(judged.verdict)},
-                                {"distance", finite(judged.distance)},
-                                {"distance_edges", finite(judged.distance / mesh.judgement.mean_edge)},
-                                {"distance_diagonal", finite(judged.distance / mesh.judgement.diagonal)},
-                                {"probability", finite(judged.probability)},
-                                {"offered", finite(judged.offered)}};
+                                {"distance", judged.distance},
+                                {"distance_edges", judged.distance / mesh.judgement.mean_edge},
+                                {"distance_diagonal", judged.distance / mesh.judgement.diagonal},
+                                {"probability", judged.probability},
+                                {"offered", judged.offered}};
   Json json = {{"name", mesh.name},   {"object", mesh.object},   {"variant", mesh.variant},
                {"faces", mesh.faces}, {"time_ms", mesh.time_ms}, {"features", features}};
   if (!mesh.error.empty()) json["error"] = mesh.error;
@@ -62,13 +60,6 @@ Json as_json(const Evaluation& evaluation) {
                {"meshes", Json::array()}};
   for (const MeshEvaluation& mesh : evaluation.meshes) json["meshes"].push_back(as_json(mesh));
   return json;
-}
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
 }
 
 std::string number(double value) {
@@ -109,14 +100,14 @@ std::string to_csv(const std::vector<Evaluation>& evaluations) {
       "ms\n";
   for (const Evaluation& evaluation : evaluations)
     for (const MeshEvaluation& mesh : evaluation.meshes) {
-      const std::string head = fmt::format("{},{},{},{},{}", quoted(evaluation.dataset), quoted(mesh.name),
-                                           quoted(mesh.object), quoted(mesh.variant), mesh.faces);
+      const std::string head = fmt::format("{},{},{},{},{}", csv_field(evaluation.dataset), csv_field(mesh.name),
+                                           csv_field(mesh.object), csv_field(mesh.variant), mesh.faces);
       for (const FeatureJudgement& f : mesh.judgement.features)
-        text += fmt::format("{},{},{},{},{},{},{},{:.3f}\n", head, quoted(f.feature), to_string(f.verdict),
+        text += fmt::format("{},{},{},{},{},{},{},{:.3f}\n", head, csv_field(f.feature), to_string(f.verdict),
                             number(f.distance), number(f.distance / mesh.judgement.mean_edge),
                             number(f.distance / mesh.judgement.diagonal), number(f.probability), mesh.time_ms);
       if (mesh.class_known())
-        text += fmt::format("{},class {},{},,,,{},{:.3f}\n", head, quoted(mesh.expected_class),
+        text += fmt::format("{},class {},{},,,,{},{:.3f}\n", head, csv_field(mesh.expected_class),
                             mesh.class_right() ? "right" : "wrong", number(mesh.class_probability), mesh.time_ms);
     }
   return text;

@@ -2,11 +2,10 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "base/errors.h"
 #include "base/schemas.h"
+#include "base/text_file.h"
 #include "evaluation/dataset.h"
 #include "model/yaml_schema.h"
 #include "truth/truth.h"
@@ -123,13 +122,7 @@ class Reader {
 }  // namespace
 
 Dataset read_dataset(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  std::error_code ignored;
-  if (!stream || fs::is_directory(path, ignored))
-    throw UsageError("data set '" + path.string() + "' cannot be read; check that it is a file and may be read");
-  const YAML::Node root = parse_yaml(text.str(), path.string());
+  const YAML::Node root = parse_yaml(read_text_file(path, "data set"), path.string());
   ErrorList errors;
   check_schema(root, dataset_schema(), path.string(), errors);
   errors.throw_if_any();

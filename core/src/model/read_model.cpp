@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/read_model.h"
 
-#include <fstream>
-#include <sstream>
-
 #include "base/schemas.h"
+#include "base/text_file.h"
 #include "model/model_reading.h"
 
 namespace toposcope {
@@ -37,14 +35,7 @@ Model model_from_text(const std::string& text, const std::string& file, const Pl
 }
 
 Model read_model(const std::filesystem::path& file, const PluginCatalog* catalog) {
-  std::ifstream stream(file, std::ios::binary);
-  // A folder opens like a file and reads as empty.
-  std::error_code ignored;
-  if (!stream || std::filesystem::is_directory(file, ignored))
-    throw UsageError("model '" + file.string() + "' cannot be read; check that it is a file and may be read");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return model_from_text(text.str(), file.string(), catalog);
+  return model_from_text(read_text_file(file, "model"), file.string(), catalog);
 }
 
 }  // namespace toposcope

@@ -97,10 +97,8 @@ Fate fate_after(const ModelFeature& feature, const ExpressionBoxes& boxes, const
   if (!shape.summary.usable() || !finite(shape)) return Fate::unusable;
   for (const Range& range : feature.ranges) {
     const Bounds bounds = evaluate(range, boxes);
-    const auto measure = std::find_if(shape.measures.begin(), shape.measures.end(),
-                                      [&](const Measure& m) { return m.name == range.measure; });
-    if (measure == shape.measures.end() || !(measure->value > bounds.low && measure->value < bounds.high))
-      return Fate::out_of_range;
+    const Measure* measure = shape.measure(range.measure);
+    if (!measure || !(measure->value > bounds.low && measure->value < bounds.high)) return Fate::out_of_range;
   }
   if (feature.max_fit_error && shape.rms > feature.max_fit_error->evaluate(boxes)) return Fate::poor_fit;
   return Fate::fitted;

@@ -2,27 +2,16 @@
 #include "pipeline/pipeline_manifest.h"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "base/nearest_name.h"
 #include "base/schemas.h"
+#include "base/text_file.h"
 #include "model/yaml_schema.h"
 #include "plugin/option_check.h"
 #include "probability/probability_options.h"
 
 namespace toposcope {
 namespace {
-
-std::string read_text(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  // Reading a folder fails only here; an empty file leaves `text` failed and is the parser's to refuse.
-  if (!stream)
-    throw UsageError("pipeline '" + path.string() + "' cannot be read; check that it is a file and may be read");
-  return text.str();
-}
 
 /// "shape 'circle'"
 std::string owner_name(PluginKind kind, const std::string& id) {
@@ -141,7 +130,7 @@ Setting parse_setting(std::string_view text, const std::string& owner) {
 
 PipelineManifest read_pipeline(const std::filesystem::path& path, const PluginCatalog& catalog) {
   const std::string file = path.string();
-  const YAML::Node root = parse_yaml(read_text(path), file);
+  const YAML::Node root = parse_yaml(read_text_file(path, "pipeline"), file);
   ErrorList errors;
   check_schema(root, pipeline_schema(), file, errors);
   errors.throw_if_any();

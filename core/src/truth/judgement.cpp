@@ -10,15 +10,9 @@
 namespace toposcope {
 namespace {
 
-const ShapeParameter* parameter(const FittedShape& shape, std::string_view name) {
-  for (const ShapeParameter& each : shape.parameters)
-    if (each.name == name) return &each;
-  return nullptr;
-}
-
 /// The marks moved, in the band's plane, to the radius of the labelled circle as far as the band allows.
 std::vector<Vec3> in_band(const std::vector<Vec3>& marks, const TruthBand& band, const FittedShape& shape) {
-  const ShapeParameter* radius = parameter(shape, "radius");
+  const ShapeParameter* radius = shape.parameter("radius");
   if (!radius) return marks;
   const double wanted = std::clamp(radius->values[0], band.inner, band.outer);
   std::vector<Vec3> moved;
@@ -51,7 +45,7 @@ double mean_distance_back(const FittedShape& shape, const std::vector<Vec3>& mar
 
 /// The farther of two ends from its group's centroid, the groups taken in the better order.
 double ends_distance(const FittedShape& shape, const std::vector<TruthGroup>& groups) {
-  const ShapeParameter* ends = parameter(shape, "endpoints");
+  const ShapeParameter* ends = shape.parameter("endpoints");
   if (!ends || ends->values.size() < 6 || groups.size() != 2) return std::numeric_limits<double>::infinity();
   const Vec3 first(ends->values.data()), last(ends->values.data() + ends->values.size() - 3);
   const auto farther = [&](const Vec3& a, const Vec3& b) { return std::max((first - a).norm(), (last - b).norm()); };
@@ -105,7 +99,7 @@ class Judge {
     }
     const std::vector<Vec3> marks = truth.band ? in_band(truth.points, *truth.band, report.shape) : truth.points;
     judged.distance = mean_distance(marks, report.shape, fitter);
-    if (parameter(report.shape, "endpoints"))
+    if (report.shape.parameter("endpoints"))
       judged.excess = std::max(judged.distance, mean_distance_back(report.shape, marks)) /
                       (limits_.lines_diagonal * scale_.diagonal);
     else

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "base/errors.h"
+#include "base/text_file.h"
 #include "truth/truth.h"
 
 namespace toposcope {
@@ -112,13 +111,10 @@ const TruthFeature* Truth::find(std::string_view name) const {
 }
 
 Truth read_truth(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw UsageError(path.string() + ": cannot be read; a truth file is JSON (schemas/truth.schema.json)");
+  const std::string text = read_text_file(path, "truth file");
   const Reader reader(path.string());
   try {
-    return reader.read(Json::parse(text.str()));
+    return reader.read(Json::parse(text));
   } catch (const Json::exception& error) {
     reader.fail("", std::string("is no JSON: ") + error.what());
   }

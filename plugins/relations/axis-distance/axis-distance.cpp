@@ -15,12 +15,6 @@ using namespace toposcope;
 
 constexpr double unlimited = 1e30;
 
-double radius_of(const FittedShape& shape) {
-  for (const Measure& measure : shape.measures)
-    if (measure.name == "radius") return measure.value;
-  return 0;
-}
-
 class AxisDistance final : public RelationTester {
  public:
   explicit AxisDistance(const Options& options) : tolerance_rel_(options.real("tolerance_rel")) {}
@@ -28,6 +22,8 @@ class AxisDistance final : public RelationTester {
   RelationResult test(const RelationInput& input, const Options& arguments, Context& /*context*/) const override {
     const FittedShape& round = *input.features[0].shape;
     const FittedShape& beside = *input.features[1].shape;
+    if (arguments.real("max") >= unlimited && arguments.real("max_radii") >= unlimited)
+      throw std::invalid_argument("axis-distance: has neither max nor max_radii; give one of them in the model");
     for (const auto& [least, most] : {std::pair("min", "max"), std::pair("min_radii", "max_radii")})
       if (arguments.real(least) > arguments.real(most))
         throw std::invalid_argument(std::string("axis-distance: ") + least + " = " +
@@ -41,8 +37,8 @@ class AxisDistance final : public RelationTester {
       return result;
     }
     const bool in_radii = arguments.real("min_radii") > 0 || arguments.real("max_radii") < unlimited;
-    const double radius = radius_of(round);
-    if (in_radii && !(radius > 0)) {
+    const Measure* radius = round.measure("radius");
+    if (in_radii && !(radius && radius->value > 0)) {
       result.applicable = false;
       result.why = "the first shape has no measure 'radius' that the distance could be measured by";
       return result;
@@ -50,8 +46,8 @@ class AxisDistance final : public RelationTester {
     const double diagonal = input.object_box.diagonal();
     double low = arguments.real("min"), high = std::min(arguments.real("max"), diagonal);
     if (in_radii) {
-      low = std::max(low, arguments.real("min_radii") * radius);
-      high = std::max(low, std::min(high, arguments.real("max_radii") * radius));
+      low = std::max(low, arguments.real("min_radii") * radius->value);
+      high = std::max(low, std::min(high, arguments.real("max_radii") * radius->value));
     }
     const Vec3 arm = beside.centroid - round.centroid;
     const double along = arm.dot(round.direction);

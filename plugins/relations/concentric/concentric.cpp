@@ -14,9 +14,8 @@ using namespace toposcope;
 // Radius of a circle-like shape (plane-like with the measure `radius`), or 0.
 double radius_of(const FittedShape& shape) {
   if (shape.orientation != Orientation::plane_like) return 0;
-  for (const Measure& measure : shape.measures)
-    if (measure.name == "radius") return measure.value;
-  return 0;
+  const Measure* radius = shape.measure("radius");
+  return radius ? radius->value : 0;
 }
 
 class Concentric final : public RelationTester {

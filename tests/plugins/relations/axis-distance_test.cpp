@@ -52,6 +52,37 @@ TEST(AxisDistance, NeedsAnAxisAndARange) {
                                        segment_feature(Vec3::Zero(), Vec3::UnitX()), {}, arguments.options());
   EXPECT_FALSE(result.applicable);
   EXPECT_NE(result.why, "");
+  const Arguments none(PluginKind::relations, "axis-distance", {{"min", "1"}});
+  EXPECT_ANY_THROW(relate(*test::relation("axis-distance"), circle_feature(Vec3::Zero(), Vec3::UnitZ(), 1),
+                          segment_feature(Vec3::Zero(), Vec3::UnitX()), {}, none.options()));
+}
+
+/// Beside a circle of radius 2.
+RelationResult in_radii(double offset, const Settings& settings, const Motion& motion = {}) {
+  const Arguments arguments(PluginKind::relations, "axis-distance", settings);
+  return relate(*test::relation("axis-distance"), circle_feature(Vec3::Zero(), Vec3::UnitZ(), 2),
+                segment_feature(Vec3(offset, -1, 5), Vec3(offset, 1, 5)), motion, arguments.options());
+}
+
+TEST(AxisDistance, InRadiiOfTheFirst) {
+  const Settings half_to_one = {{"min_radii", "0.5"}, {"max_radii", "1"}};
+  EXPECT_NEAR(in_radii(0.75, half_to_one).residual, 0.25, 1e-12);
+  EXPECT_NEAR(in_radii(1.5, half_to_one).residual, 0, 1e-12);
+  EXPECT_NEAR(in_radii(2.5, half_to_one).residual, 0.5, 1e-12);
+  EXPECT_NEAR(in_radii(1.5, half_to_one).slack, 1, 1e-12);
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Motion motion = some_motion(seed);
+    EXPECT_NEAR(in_radii(2.5, half_to_one, motion).residual / motion.scale, 0.5, 1e-9) << "no length in the model";
+  }
+  EXPECT_NEAR(in_radii(1.5, {{"max", "1.2"}, {"max_radii", "1"}}).residual, 0.3, 1e-12) << "both bound it";
+  EXPECT_ANY_THROW(in_radii(1, {{"min_radii", "2"}, {"max_radii", "1"}}));
+}
+
+TEST(AxisDistance, RadiiNeedARadius) {
+  const Arguments arguments(PluginKind::relations, "axis-distance", {{"max_radii", "1"}});
+  const RelationResult result = relate(*test::relation("axis-distance"), segment_feature(Vec3::Zero(), Vec3::UnitZ()),
+                                       segment_feature(Vec3(1, 0, 0), Vec3(1, 1, 0)), {}, arguments.options());
+  EXPECT_FALSE(result.applicable);
 }
 
 }  // namespace
