@@ -40,7 +40,7 @@ evaluate: configure
 	$(TOPOSCOPE) evaluate $(SETS) --out evaluation
 	for set in $(BASELINE_SETS); do \
 	  $(TOPOSCOPE) evaluate $$set --pipeline neal-1999 --model neal-1999/$$(sed -n 's/^model: //p' $$set) \
-	    --out evaluation/neal-1999/$$(basename $$set .yaml); \
+	    --out evaluation/neal-1999/$$(basename $$set .yaml) || exit 1; \
 	done
 
 # Speed beside other libraries; CGAL and VTK take part when libcgal-dev and libvtk9-dev are installed.

@@ -37,8 +37,8 @@ Entry entry_of(const Contender& contender, const ClassOutcome& best, double time
     entry.labelling.emplace_back(
         best.problem.variables[v].name,
         labeling.values[v] == 0 ? 0 : best.problem.variables[v].candidates[labeling.values[v] - 1] + 1);
-  entry.cost = best.first_cost;
-  entry.posterior = std::exp(-best.first_cost - best.log_evidence);
+  entry.cost = labeling.cost;
+  entry.posterior = std::exp(-labeling.cost - best.log_evidence);
   entry.time_ms = time_ms;
   entry.nodes = nodes;
   entry.guarantee = best.outcome.guarantee;

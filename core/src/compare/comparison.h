@@ -18,8 +18,8 @@ struct Contender {
   std::shared_ptr<const Labeler> labeler;
 };
 
-/// What one labeler made of one mesh. Costs and bounds are of the labelling problem as the model poses it, before
-/// interchangeable features are told apart: the same problem for all.
+/// What one labeler made of one mesh. Bounds are of the labelling problem as the model poses it, the same for all; to
+/// tell interchangeable features apart changes the cost of no labelling.
 struct Entry {
   std::string labeler;
   std::string class_name;  ///< of the model that it found best; the model's own name without

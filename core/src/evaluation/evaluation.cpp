@@ -39,8 +39,8 @@ class MeshContext final : public Context {
 
 class Evaluator {
  public:
-  Evaluator(const Model& model, const Stations& stations, PluginHost& host)
-      : model_(model), stations_(stations), host_(host) {}
+  Evaluator(const Model& model, const Stations& stations, PluginHost& host, bool by_class)
+      : model_(model), stations_(stations), host_(host), by_class_(by_class) {}
 
   MeshEvaluation mesh(const DatasetMesh& item, Context& context) const {
     MeshEvaluation evaluation;
@@ -53,6 +53,11 @@ class Evaluator {
       if (!model_.classes.empty() && evaluation.expected_class.empty())
         evaluation.expected_class = known.truth.class_name;
       label(known, evaluation, context);
+      // Nothing to compare with is no success.
+      if (by_class_ && !evaluation.class_known())
+        throw UsageError(item.name + ": its class is not known; give it in the data set, or in a truth file");
+      if (!by_class_ && evaluation.judgement.features.empty())
+        throw UsageError(item.name + ": no truth of the model's features; put <mesh>.truth.json beside the mesh");
     } catch (const Error& error) {
       if (context.cancelled()) throw;
       evaluation.error = error.what();
@@ -83,12 +88,13 @@ class Evaluator {
   const Model& model_;
   const Stations& stations_;
   PluginHost& host_;
+  bool by_class_;
 };
 
 }  // namespace
 
 Evaluation evaluate(const Dataset& dataset, const Model& model, const Stations& stations, PluginHost& host,
-                    Context& context, const std::function<void(const MeshEvaluation&)>& done) {
+                    Context& context) {
   const auto start = std::chrono::steady_clock::now();
   Evaluation evaluation;
   evaluation.dataset = dataset.name;
@@ -97,7 +103,7 @@ Evaluation evaluate(const Dataset& dataset, const Model& model, const Stations& 
   evaluation.by_class = dataset.by_class;
   evaluation.absent = dataset.absent;
   evaluation.meshes.resize(dataset.meshes.size());
-  const Evaluator evaluator(model, stations, host);
+  const Evaluator evaluator(model, stations, host, dataset.by_class);
   const bool alone = dataset.meshes.size() < 2 * context.threads();
   std::mutex mutex;
   std::size_t finished = 0;
@@ -107,7 +113,6 @@ Evaluation evaluate(const Dataset& dataset, const Model& model, const Stations& 
     evaluation.meshes[i] = evaluator.mesh(dataset.meshes[i], inner);
     const std::lock_guard lock(mutex);
     context.progress(static_cast<double>(++finished) / static_cast<double>(dataset.meshes.size()));
-    if (done) done(evaluation.meshes[i]);
   };
   if (alone)
     for (std::size_t i = 0; i < dataset.meshes.size(); ++i) one(i);

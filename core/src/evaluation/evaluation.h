@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -40,9 +39,8 @@ struct Evaluation {
 
 /// Labels every mesh of a data set and judges the result. Several meshes run side by side, each on one thread; the
 /// numbers are the same at any thread count. A mesh that cannot be used is part of the result.
-/// \param done  called after each mesh, by one thread at a time; may be empty
 Evaluation evaluate(const Dataset& dataset, const Model& model, const Stations& stations, PluginHost& host,
-                    Context& context, const std::function<void(const MeshEvaluation&)>& done = {});
+                    Context& context);
 
 // ---- numbers ----
 

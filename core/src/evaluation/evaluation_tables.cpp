@@ -72,10 +72,9 @@ Table distance_table(const std::vector<const MeshEvaluation*>& meshes) {
       }
       if (any) table.rows.push_back(std::move(row));
     }
-  if (objects.size() < meshes.size() || variants.size() > 1)
-    table.note =
-        "wrong: labelled too far away; missed: not labelled; none: absent, and so reported; spurious: labelled though "
-        "absent.";
+  table.note =
+      "wrong: labelled too far away; missed: not labelled; none: absent, and so reported; spurious: labelled though "
+      "absent.";
   return table;
 }
 

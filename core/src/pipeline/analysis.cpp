@@ -95,7 +95,6 @@ ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeat
   posed.marginals_ms = solver.marginals_ms;
   posed.nodes = posed.outcome.nodes;
   posed.lower_bound = posed.outcome.lower_bound;
-  posed.first_cost = posed.outcome.labelings.front().cost;
   posed.least_cost = forbidden;
   for (const Labeling& labeling : posed.outcome.labelings) posed.least_cost = std::min(posed.least_cost, labeling.cost);
   const auto names =

@@ -25,7 +25,6 @@ struct ClassOutcome {
   /// Before interchangeable features are told apart:
   double log_evidence = 0;                ///< over all labellings; not a number where none is made
   double least_cost = 0;                  ///< of the labellings found
-  double first_cost = 0;                  ///< of the labeler's first
   double lower_bound = 0;                 ///< the labeler's
   std::uint64_t nodes = 0;                ///< the labeler's
   double label_ms = 0, marginals_ms = 0;  ///< to solve it; without the time to tell features apart

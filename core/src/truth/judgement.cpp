@@ -54,8 +54,8 @@ double ends_distance(const FittedShape& shape, const std::vector<TruthGroup>& gr
 
 class Judge {
  public:
-  Judge(const Result& result, const Stations& stations, const Limits& limits, Judgement& scale)
-      : result_(result), stations_(stations), limits_(limits), scale_(scale) {}
+  Judge(const Stations& stations, const Limits& limits, const Judgement& scale)
+      : stations_(stations), limits_(limits), scale_(scale) {}
 
   FeatureJudgement feature(const FeatureReport& report, const TruthFeature& truth) const {
     FeatureJudgement judged;
@@ -106,7 +106,6 @@ class Judge {
       judged.excess = judged.distance / (limits_.shape_edges * scale_.mean_edge);
   }
 
-  const Result& result_;
   const Stations& stations_;
   const Limits& limits_;
   const Judgement& scale_;
@@ -141,7 +140,7 @@ Judgement judge(const Result& result, const Analysis& analysis, const Model& mod
   Judgement scale;
   scale.mean_edge = truth.mean_edge.value_or(result.mean_edge);
   scale.diagonal = truth.diagonal.value_or(result.box.diagonal());
-  const Judge judge(result, stations, limits, scale);
+  const Judge judge(stations, limits, scale);
 
   // A renaming is of the posed features alone; all others keep their names.
   Judgement best;

@@ -9,9 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "io/mesh_io.h"
 #include "model/read_model.h"
 #include "pipeline/pipeline_manifest.h"
+#include "support/meshes.h"
 #include "support/plugins.h"
+#include "support/program.h"
 
 namespace toposcope {
 namespace {
@@ -111,6 +114,30 @@ TEST(Evaluation, CsvHasARowPerFeature) {
   const std::string csv = to_csv({by_hand()});
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
   EXPECT_THAT(csv, HasSubstr("hand,cup 2K,cup,2K,0,rim,wrong,6,3,0.06,0.95,"));
+}
+
+TEST(Evaluation, AMeshWithoutTruthIsNoSuccess) {
+  const PluginCatalog& catalog = test::host().catalog();
+  const std::filesystem::path source = TOPOSCOPE_SOURCE_DIR;
+  const Model cup = read_model(source / "models/cup.yaml", &catalog);
+  const Model fitting = read_model(source / "models/pipe-fitting.yaml", &catalog);
+  const PipelineManifest pipeline = read_pipeline(source / "pipelines/default.yaml", catalog);
+  const test::TemporaryFolder folder;
+  const TriangleSoup box = test::make_box({1, 2, 3}, 8);
+  write_mesh(folder / "box.ply", box.positions, box.triangles);
+  Dataset dataset;
+  dataset.meshes.resize(1);
+  dataset.meshes[0].name = "box";
+  dataset.meshes[0].file = folder / "box.ply";
+  const Evaluation features =
+      evaluate(dataset, cup, make_stations(test::host(), pipeline, cup), test::host(), test::context());
+  EXPECT_FALSE(features.right(features.meshes[0]));
+  EXPECT_THAT(features.meshes[0].error, HasSubstr("box: no truth"));
+  dataset.by_class = true;
+  const Evaluation classes =
+      evaluate(dataset, fitting, make_stations(test::host(), pipeline, fitting), test::host(), test::context());
+  EXPECT_FALSE(classes.right(classes.meshes[0]));
+  EXPECT_THAT(classes.meshes[0].error, HasSubstr("box: its class is not known"));
 }
 
 /// Of generated objects, end to end; the numbers are the same side by side as one after the other.
