@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "neighbourhood.h"
 #include "toposcope/curvature.h"
 #include "toposcope/large_array.h"
 
@@ -13,11 +14,9 @@ namespace {
 
 constexpr std::size_t grain = 1024;
 
-constexpr double reach = 2;              // radius of the neighbourhood, in mean edges around the vertex
-constexpr double last_step = 0.75;       // of the radius: from farther out the walk goes no further
-constexpr std::size_t most_points = 48;  // where a mesh is much finer here than on average, the nearest by steps
-constexpr double faces_away = -0.3;      // cosine between normals
-constexpr double ridge = 1e-5;           // of the squared reach; biases by less than 0.1 %
+constexpr double reach = 2;          // radius of the neighbourhood, in mean edges around the vertex
+constexpr double faces_away = -0.3;  // cosine between normals
+constexpr double ridge = 1e-5;       // of the squared reach; biases by less than 0.1 %
 
 /// Least squares with six unknowns by the normal equations: the inner loop of the estimate. Rows are kept in columns,
 /// so that sums run over contiguous numbers, four at a time.
@@ -79,59 +78,6 @@ class SixUnknowns {
 
   std::vector<double> columns_;  ///< of the six unknowns' coefficients and of the values
   std::size_t stride_ = 0, count_ = 0;
-};
-
-struct Neighbour {
-  Vec3 offset;  ///< from p
-  Index vertex;
-};
-
-/// Vertices that a walk from p reaches without leaving the ball.
-class Neighbourhood {
- public:
-  explicit Neighbourhood(const MeshView& mesh)
-      : mesh_(mesh), reached_from_(large_array<Index>(mesh.vertex_count(), std::numeric_limits<Index>::max())) {}
-
-  /// p itself not among them.
-  std::span<const Neighbour> around(Index p) {
-    const Vec3 here = mesh_.positions[p];
-    const auto ring = mesh_.one_ring(p);
-    reached_from_[p] = p;
-    make_room(0, ring.size());
-    std::size_t count = 0;
-    double edges = 0;
-    for (Index q : ring) {
-      reached_[count] = {mesh_.positions[q] - here, q};
-      reached_from_[q] = p;
-      edges += reached_[count++].offset.norm();
-    }
-    if (count == 0) return {};
-    const double radius = reach * std::max(mesh_.mean_edge, edges / static_cast<double>(count));
-    const double squared = radius * radius, squared_turn = last_step * last_step * squared;
-    for (std::size_t i = 0; i < count && count < most_points; ++i) {
-      if (reached_[i].offset.squaredNorm() > squared_turn) continue;
-      const auto next = mesh_.one_ring(reached_[i].vertex);
-      if (next.size() > most_points) continue;  // the hub of a wheel: to go through it from every spoke is without end
-      make_room(count, next.size());
-      for (Index q : next) {
-        if (reached_from_[q] == p) continue;
-        reached_from_[q] = p;
-        const Vec3 offset = mesh_.positions[q] - here;
-        reached_[count] = {offset, q};
-        count += offset.squaredNorm() <= squared;
-      }
-    }
-    return {reached_.data(), count};
-  }
-
- private:
-  void make_room(std::size_t count, std::size_t more) {
-    if (reached_.size() < count + more) reached_.resize(count + more);
-  }
-
-  const MeshView& mesh_;
-  std::vector<Neighbour> reached_;
-  std::vector<Index> reached_from_;
 };
 
 /// Fits z = c0 + c1 x + c2 y + c3 x^2/2 + c4 xy + c5 y^2/2 and turns its second fundamental form into the frame of the
@@ -227,7 +173,7 @@ ShapeOperators fit_shape_operators(const MeshView& mesh, Context& context) {
   // Few chunks: each has a mark per vertex of the mesh.
   const std::size_t chunk = std::max<std::size_t>(grain, mesh.vertex_count() / 16);
   context.parallel_for(mesh.vertex_count(), chunk, [&](std::size_t first, std::size_t last) {
-    Neighbourhood neighbourhood(mesh);
+    Neighbourhood neighbourhood(mesh, reach);
     SixUnknowns quadric;
     for (Index p = static_cast<Index>(first); p < last; ++p) {
       if (p % grain == 0 && context.cancelled()) return;

@@ -68,6 +68,13 @@ inline PrincipalCurvatures principal_curvatures(const ShapeOperator& at) {
 }
 Curvature principal_curvatures(const ShapeOperators& operators);
 
+/// The first moment of the surface around each vertex: the area-weighted mean, in radii, of the offsets of the vertices
+/// that a walk along edges reaches within `reach` mean edges. Against the normal where the surface is convex: on a
+/// sphere of radius R, radius / (4 R); 0.3 at a right-angled edge; 4 / (3 pi) at the edge of a thin sheet, which has no
+/// curvature to speak of and no one normal (Clarenz, Rumpf and Telea, Robust feature detection and local classification
+/// for surfaces based on moment analysis, TVCG 2004).
+std::vector<Vec3> first_moments(const MeshView& mesh, double reach, Context& context);
+
 /// \}
 /// \name The dissertation's estimate
 /// \{

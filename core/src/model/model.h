@@ -56,6 +56,8 @@ struct ModelFeature {
   std::string name;
   std::string realises;               ///< abstract object; empty when the model has no abstract part
   std::vector<std::string> worksets;  ///< one type per working set of the group
+  /// The same for the groups that a second look tries, of sets that no other feature has taken; empty: there is none.
+  std::vector<std::string> second_look;
   ShapeSpec shape;
   std::vector<Range> ranges;
   std::optional<Expression> max_fit_error;  ///< t_err of 3.4.1, a length

@@ -30,9 +30,13 @@ std::string arguments_in_words(const Relationship& relationship) {
 }
 
 std::string worksets_in_words(const ModelFeature& feature) {
-  std::string words;
-  for (const std::string& type : feature.worksets) words += (words.empty() ? "" : " + ") + type;
-  return words;
+  const auto joined = [](const std::vector<std::string>& types) {
+    std::string words;
+    for (const std::string& type : types) words += (words.empty() ? "" : " + ") + type;
+    return words;
+  };
+  return joined(feature.worksets) +
+         (feature.second_look.empty() ? "" : ", at a second look " + joined(feature.second_look));
 }
 
 std::string number_in_words(double number) {

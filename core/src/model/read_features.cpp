@@ -24,7 +24,8 @@ class FeatureReader {
     feature.name = name.Scalar();
     feature.where = reading_.at(name);
     read_object(node["realises"], feature);
-    read_worksets(node["worksets"], feature);
+    read_worksets(node["worksets"], feature.worksets);
+    if (node["second_look"]) read_worksets(node["second_look"], feature.second_look);
     const PluginManifest* shape = read_shape(node["shape"], feature);
     if (node["ranges"])
       for (const auto& range : node["ranges"]) read_range(range.first, range.second, shape, feature);
@@ -53,14 +54,14 @@ class FeatureReader {
                              name_remedy(feature.realises, names_of(abstract_.objects)));
   }
 
-  void read_worksets(const YAML::Node& node, ModelFeature& feature) {
+  void read_worksets(const YAML::Node& node, std::vector<std::string>& types) {
     std::vector<std::string> known;
     if (reading_.catalog)
       for (const PluginManifest* plugin : reading_.catalog->all(PluginKind::worksets))
         for (const ProvidedRow& type : plugin->provides)
           if (std::find(known.begin(), known.end(), type.name) == known.end()) known.push_back(type.name);
     for (const YAML::Node& type : node) {
-      feature.worksets.push_back(type.Scalar());
+      types.push_back(type.Scalar());
       if (reading_.catalog && std::find(known.begin(), known.end(), type.Scalar()) == known.end())
         reading_.add(type, "no working-set plugin provides the type '" + type.Scalar() + "'; " +
                                name_remedy(type.Scalar(), known));
@@ -99,9 +100,10 @@ class FeatureReader {
       reading_.attempt(id, [&] {
         check_options(shape->arguments, feature.shape.arguments, feature.shape.where.str() + ": " + owner);
       });
-    if (shape && !arity_allows(shape->min_arity, shape->max_arity, feature.worksets.size()))
-      reading_.add(id, "feature '" + feature.name + "' gives " + owner + " " + std::to_string(feature.worksets.size()) +
-                           " working sets; it " + arity_in_words(shape->min_arity, shape->max_arity));
+    for (const std::vector<std::string>* types : {&feature.worksets, &feature.second_look})
+      if (shape && !types->empty() && !arity_allows(shape->min_arity, shape->max_arity, types->size()))
+        reading_.add(id, "feature '" + feature.name + "' gives " + owner + " " + std::to_string(types->size()) +
+                             " working sets; it " + arity_in_words(shape->min_arity, shape->max_arity));
     return shape;
   }
 

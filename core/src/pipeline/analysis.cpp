@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "base/errors.h"
 #include "pipeline/labeling_problem.h"
+#include "pipeline/second_look.h"
 #include "plugin/plugin_host.h"
 #include "probability/symmetry.h"
 #include "toposcope/labeling_tools.h"
@@ -57,9 +59,13 @@ struct Solver {
   Context& context;
   double label_ms = 0, marginals_ms = 0;  ///< the last problem's
 
+  LabelingOutcome labelings(const LabelingProblem& problem) {
+    return outcome_of(problem, *stations.labeler, stations.labeler_id, request);
+  }
+
   void solve(ClassOutcome& posed) {
     Stopwatch watch;
-    posed.outcome = outcome_of(posed.problem, *stations.labeler, stations.labeler_id, request);
+    posed.outcome = labelings(posed.problem);
     LabelingOutcome& outcome = posed.outcome;
     const std::string* maker = &stations.labeler_id;
     std::string made = outcome.guarantee;
@@ -116,6 +122,23 @@ ClassOutcome solve(ClassOutcome posed, const Model& model, const ConstructedFeat
   return posed;
 }
 
+/// The constructed feature of each model feature in the labelling of least cost over the classes.
+std::vector<std::optional<Index>> first_labeling(const LabelingProblem& problem, const Model& model,
+                                                 const Stations& stations, Context& context) {
+  std::vector<std::optional<Index>> labelled(model.features.size());
+  double least = std::numeric_limits<double>::infinity();
+  const LabelingRequest request;
+  for (const ClassOutcome& posed : pose_classes(problem, model, stations.probability)) {
+    const Labeling best = Solver{stations, request, context}.labelings(posed.problem).labelings.front();
+    if (!(best.cost < least)) continue;
+    least = best.cost;
+    std::fill(labelled.begin(), labelled.end(), std::nullopt);
+    for (Index v = 0; v < best.values.size(); ++v)
+      if (best.values[v] > 0) labelled[posed.features[v]] = posed.problem.variables[v].candidates[best.values[v] - 1];
+  }
+  return labelled;
+}
+
 }  // namespace
 
 std::vector<double> comparable_evidence(const std::vector<Explained>& classes) {
@@ -152,6 +175,12 @@ Analysis construct(const Mesh& mesh, const Model& model, const Stations& station
   lap("fit");
   analysis.problem = build_problem(view, model, analysis.features, overlap, stations, context);
   lap("relate");
+  if (has_second_look(model)) {
+    const auto labelled = first_labeling(analysis.problem, model, stations, context);
+    if (look_again(view, model, analysis.sets, overlap, labelled, stations, context, analysis.features))
+      analysis.problem = build_problem(view, model, analysis.features, overlap, stations, context);
+    lap("second_look");
+  }
   if (context.cancelled()) throw Error("interrupted", interrupted_exit_code);
   return analysis;
 }

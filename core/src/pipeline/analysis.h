@@ -56,7 +56,8 @@ struct Analysis {
   Timings timings;
 };
 
-/// Runs filter, classify, fit, relate: all that labels nothing yet.
+/// Runs filter, classify, fit, relate and, where the model has one, the second look, which a first labelling by the
+/// pipeline's labeler guides: all that comes before the labelling proper.
 Analysis construct(const Mesh& mesh, const Model& model, const Stations& stations, Context& context);
 
 /// The station *label*: replaces `classes` and what follows from them.

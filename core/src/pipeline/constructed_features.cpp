@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "pipeline/working_set_groups.h"
 #include "plugin/plugin_host.h"
@@ -17,6 +18,7 @@ constexpr std::size_t grain = 8;
 /// Features that ask for the same shape of the same types share their fits.
 struct FitJob {
   const ModelFeature* feature;  ///< the first of them
+  const std::vector<std::string>* types;
   const std::vector<OptionValue>* arguments;
   const ShapeFitter* fitter;
   std::vector<Index> features;
@@ -39,7 +41,11 @@ std::vector<FitJob> fit_jobs(const Model& model, const Stations& stations) {
     if (same != jobs.end())
       same->features.push_back(f);
     else
-      jobs.push_back({&feature, &stations.shape_arguments[f], stations.shapes.at(feature.shape.plugin).get(), {f}});
+      jobs.push_back({&feature,
+                      &feature.worksets,
+                      &stations.shape_arguments[f],
+                      stations.shapes.at(feature.shape.plugin).get(),
+                      {f}});
   }
   return jobs;
 }
@@ -56,20 +62,6 @@ bool uses_working_set_box(const ModelFeature& feature) {
   const auto uses = [](const std::optional<Expression>& e) { return e && e->uses_worksets(); };
   return uses(feature.max_fit_error) || std::any_of(feature.ranges.begin(), feature.ranges.end(),
                                                     [&](const Range& r) { return uses(r.low) || uses(r.high); });
-}
-
-/// The box along the principal axes: a stand-in for bb(w) of many groups, of which few are kept.
-Box principal_box(std::span<const Vec3> points) {
-  const PrincipalAxes principal = principal_axes(points);
-  Box box{principal.centroid, principal.axes, {}};
-  for (int k = 0; k < 3; ++k) {
-    const auto [low, high] = std::minmax_element(points.begin(), points.end(), [&](const Vec3& p, const Vec3& q) {
-      return p.dot(box.axes[k]) < q.dot(box.axes[k]);
-    });
-    box.sides[k] = (*high - *low).dot(box.axes[k]);
-    box.center += ((*high + *low) / 2 - principal.centroid).dot(box.axes[k]) * box.axes[k];
-  }
-  return box;
 }
 
 /// A fit with a number that is none would poison every relation it enters.
@@ -152,7 +144,7 @@ JobResult run_job(const FitJob& job, const WorkingSetGroups& groups, const MeshV
 }
 
 void count(CandidateCount& count, std::span<const Fate> fates) {
-  count.groups = fates.size();
+  count.groups += fates.size();
   for (Fate fate : fates) switch (fate) {
       case Fate::boxed_out:
         ++count.boxed_out;
@@ -179,31 +171,50 @@ double fit_error_sd(const ModelFeature& feature, const MeshView& mesh, const Box
   return stations.probability.fit_error_scale * mesh.mean_edge;
 }
 
-/// Moves the best candidates of each feature of a job to `out`.
+/// Adds the candidates of each feature of a job to those that `out` has, of which the best are kept.
 void select(const FitJob& job, const WorkingSetGroups& groups, const JobResult& result, const MeshView& mesh,
-            const Model& model, const WorkingSets& sets, std::span<const double> vertex_areas, const Stations& stations,
-            ConstructedFeatures& out) {
+            const Model& model, const WorkingSets& sets, std::span<const double> vertex_areas, std::size_t ways,
+            const Stations& stations, ConstructedFeatures& out) {
   constexpr Index unmade = std::numeric_limits<Index>::max();
-  std::vector<Index> made(groups.size(), unmade);  // into out.all
-  std::vector<std::pair<double, Index>> ranked;
+  std::vector<Index> made(groups.size(), unmade);      // into out.all
+  std::vector<std::pair<double, std::size_t>> ranked;  // cost; of the candidates there were or, behind them, a group
   GroupPoints at;
   for (std::size_t i = 0; i < job.features.size(); ++i) {
     const ModelFeature& feature = model.features[job.features[i]];
     FeatureCandidates& candidates = out.of_feature[job.features[i]];
     count(candidates.count, result.fates[i]);
+    const FeatureCandidates old = candidates;
+    const std::size_t before = old.constructed.size();
+    const auto fitted =
+        static_cast<std::size_t>(std::count(result.fates[i].begin(), result.fates[i].end(), Fate::fitted));
+    const double ways_here = static_cast<double>(std::max<std::size_t>({1, fitted, ways}));
+    std::vector<double> evidence = old.evidence;
+    evidence.resize(before + groups.size());
     ranked.clear();
-    for (Index g = 0; g < groups.size(); ++g)
-      if (result.fates[i][g] == Fate::fitted)
-        ranked.emplace_back(-fit_evidence(stations.probability, result.shapes[g],
-                                          fit_error_sd(feature, mesh, result.boxes[g], stations)),
-                            g);
+    for (std::size_t c = 0; c < before; ++c) ranked.emplace_back(std::log(old.ways[c]) - evidence[c], c);
+    for (Index g = 0; g < groups.size(); ++g) {
+      if (result.fates[i][g] != Fate::fitted) continue;
+      evidence[before + g] =
+          fit_evidence(stations.probability, result.shapes[g], fit_error_sd(feature, mesh, result.boxes[g], stations));
+      ranked.emplace_back(std::log(ways_here) - evidence[before + g], before + g);
+    }
     std::sort(ranked.begin(), ranked.end());
     if (ranked.size() > stations.probability.max_candidates) {
-      candidates.count.beaten = ranked.size() - stations.probability.max_candidates;
-      candidates.count.kept = stations.probability.max_candidates;
+      candidates.count.beaten += ranked.size() - stations.probability.max_candidates;
+      candidates.count.kept -= ranked.size() - stations.probability.max_candidates;
       ranked.resize(stations.probability.max_candidates);
     }
-    for (const auto& [cost, g] : ranked) {
+    candidates.constructed.clear();
+    candidates.evidence.clear();
+    candidates.ways.clear();
+    for (const auto& [cost, place] : ranked) {
+      candidates.evidence.push_back(evidence[place]);
+      candidates.ways.push_back(place < before ? old.ways[place] : ways_here);
+      if (place < before) {
+        candidates.constructed.push_back(old.constructed[place]);
+        continue;
+      }
+      const Index g = static_cast<Index>(place - before);
       if (made[g] == unmade) {
         made[g] = static_cast<Index>(out.all.size());
         ConstructedFeature& constructed = out.all.emplace_back();
@@ -214,15 +225,11 @@ void select(const FitJob& job, const WorkingSetGroups& groups, const JobResult& 
         constructed.box = groups.arity() == 1 ? result.boxes[g] : oriented_box(constructed.points);
       }
       candidates.constructed.push_back(made[g]);
-      candidates.evidence.push_back(-cost);
     }
   }
 }
 
-}  // namespace
-
-ConstructedFeatures construct_features(const MeshView& mesh, const Model& model, const WorkingSets& sets,
-                                       const BitMatrix& overlap, const Stations& stations, Context& context) {
+std::vector<Box> boxes_of(const WorkingSets& sets, const MeshView& mesh, Context& context) {
   std::vector<Box> boxes(sets.size());
   context.parallel_for(sets.size(), grain, [&](std::size_t first, std::size_t last) {
     std::vector<Vec3> points;
@@ -232,20 +239,45 @@ ConstructedFeatures construct_features(const MeshView& mesh, const Model& model,
       boxes[s] = oriented_box(points);
     }
   });
+  return boxes;
+}
 
-  const std::vector<double> vertex_areas = areas_of_vertices(mesh);
+void construct(const FitJob& job, const WorkingSetGroups& groups, const MeshView& mesh, const Model& model,
+               const WorkingSets& sets, std::span<const double> vertex_areas, std::size_t ways,
+               const Stations& stations, Context& context, ConstructedFeatures& features) {
+  const JobResult result = guard(job.feature->shape.plugin, [&] {
+    return run_job(job, groups, mesh, model, sets, vertex_areas, features.set_boxes, context);
+  });
+  select(job, groups, result, mesh, model, sets, vertex_areas, ways, stations, features);
+}
+
+}  // namespace
+
+ConstructedFeatures construct_features(const MeshView& mesh, const Model& model, const WorkingSets& sets,
+                                       const BitMatrix& overlap, const Stations& stations, Context& context) {
   ConstructedFeatures features;
+  features.set_boxes = boxes_of(sets, mesh, context);
   features.of_feature.resize(model.features.size());
+  const std::vector<double> vertex_areas = areas_of_vertices(mesh);
   const std::vector<FitJob> jobs = fit_jobs(model, stations);
   for (std::size_t j = 0; j < jobs.size(); ++j) {
-    const WorkingSetGroups groups(*jobs[j].feature, sets, overlap);
-    const JobResult result = guard(jobs[j].feature->shape.plugin, [&] {
-      return run_job(jobs[j], groups, mesh, model, sets, vertex_areas, boxes, context);
-    });
-    select(jobs[j], groups, result, mesh, model, sets, vertex_areas, stations, features);
+    const WorkingSetGroups groups(*jobs[j].feature, *jobs[j].types, sets, overlap);
+    construct(jobs[j], groups, mesh, model, sets, vertex_areas, 1, stations, context, features);
     context.progress(static_cast<double>(j + 1) / static_cast<double>(jobs.size()));
   }
   return features;
+}
+
+void construct_more(const MeshView& mesh, const Model& model, const WorkingSets& sets, Index feature,
+                    const WorkingSetGroups& groups, std::size_t ways, const Stations& stations, Context& context,
+                    ConstructedFeatures& features) {
+  const ModelFeature& asking = model.features[feature];
+  const FitJob job{&asking,
+                   &asking.second_look,
+                   &stations.shape_arguments[feature],
+                   stations.shapes.at(asking.shape.plugin).get(),
+                   {feature}};
+  construct(job, groups, mesh, model, sets, areas_of_vertices(mesh), ways, stations, context, features);
 }
 
 }  // namespace toposcope

@@ -6,6 +6,7 @@
 
 #include "model/model.h"
 #include "pipeline/stations.h"
+#include "pipeline/working_set_groups.h"
 #include "pipeline/working_sets.h"
 #include "toposcope/shapes.h"
 
@@ -31,14 +32,16 @@ struct CandidateCount {
   std::size_t kept = 0;
 };
 
-/// T(f) for one model feature.
+/// T(f) for one model feature, best evidence first once each has paid for the choice among its look's groups.
 struct FeatureCandidates {
-  std::vector<Index> constructed;  ///< into ConstructedFeatures::all, best evidence first
+  std::vector<Index> constructed;  ///< into ConstructedFeatures::all
   std::vector<double> evidence;    ///< log likelihood ratio of each
+  std::vector<double> ways;        ///< of each: how many groups the look that found it had to choose from
   CandidateCount count;
 };
 
 struct ConstructedFeatures {
+  std::vector<Box> set_boxes;  ///< of the working sets
   std::vector<ConstructedFeature> all;
   std::vector<FeatureCandidates> of_feature;  ///< one per model feature
 };
@@ -47,5 +50,11 @@ struct ConstructedFeatures {
 /// keeps for each feature the candidates of greatest evidence.
 ConstructedFeatures construct_features(const MeshView& mesh, const Model& model, const WorkingSets& sets,
                                        const BitMatrix& overlap, const Stations& stations, Context& context);
+
+/// Fits a feature's shape to more groups, of the types of its second look; the best of old and new candidates stay.
+/// \param ways  how many groups these were chosen from
+void construct_more(const MeshView& mesh, const Model& model, const WorkingSets& sets, Index feature,
+                    const WorkingSetGroups& groups, std::size_t ways, const Stations& stations, Context& context,
+                    ConstructedFeatures& features);
 
 }  // namespace toposcope

@@ -159,10 +159,9 @@ LabelingProblem build_problem(const MeshView& mesh, const Model& model, const Co
     variable.candidates = candidates.constructed;
     const DetectabilityCosts costs = detectability_costs(stations.probability, variable.detectability);
     variable.costs.push_back(costs.missing);
-    // A feature that is there is any one of the candidates: the prior is shared among them.
-    const double share =
-        std::log(std::max<double>(1, static_cast<double>(candidates.count.kept + candidates.count.beaten)));
-    for (double evidence : candidates.evidence) variable.costs.push_back(costs.present + share - evidence);
+    // A feature that is there is any one of the groups there were to choose from: the prior is shared among them.
+    for (std::size_t c = 0; c < candidates.evidence.size(); ++c)
+      variable.costs.push_back(costs.present + std::log(candidates.ways[c]) - candidates.evidence[c]);
   }
 
   const Index count = static_cast<Index>(features.all.size());

@@ -42,10 +42,12 @@ Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const
   stations.uses.push_back(use_of(worksets, pipeline.worksets.options));
 
   for (const ModelFeature& feature : model.features) {
-    for (const std::string& type : feature.worksets)
-      if (!worksets.find_provided(type))
-        throw UsageError(feature.where.str() + ": feature '" + feature.name + "' asks for working sets of type '" +
-                         type + "', which '" + worksets.id + "' of pipeline '" + pipeline.name + "' does not provide");
+    for (const std::vector<std::string>* types : {&feature.worksets, &feature.second_look})
+      for (const std::string& type : *types)
+        if (!worksets.find_provided(type))
+          throw UsageError(feature.where.str() + ": feature '" + feature.name + "' asks for working sets of type '" +
+                           type + "', which '" + worksets.id + "' of pipeline '" + pipeline.name +
+                           "' does not provide");
     const PluginManifest& shape = catalog.require(PluginKind::shapes, feature.shape.plugin, feature.shape.where.str());
     stations.shape_arguments.push_back(check_options(shape.arguments, feature.shape.arguments,
                                                      feature.shape.where.str() + ": shape '" + shape.id + "'"));

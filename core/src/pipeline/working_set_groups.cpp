@@ -5,24 +5,27 @@
 #include <algorithm>
 
 #include "base/errors.h"
+#include "toposcope/geometry.h"
 
 namespace toposcope {
 namespace {
 constexpr std::size_t max_groups = 1'000'000;
 }
 
-WorkingSetGroups::WorkingSetGroups(const ModelFeature& feature, const WorkingSets& sets, const BitMatrix& overlap) {
-  for (const std::string& type : feature.worksets) {
+WorkingSetGroups::WorkingSetGroups(const ModelFeature& feature, const std::vector<std::string>& types,
+                                   const WorkingSets& sets, const BitMatrix& overlap, const std::vector<bool>& usable) {
+  for (const std::string& type : types) {
     std::vector<Index>& candidates = of_type_.emplace_back();
     for (Index s = 0; s < sets.size(); ++s)
-      if (sets.type_names[sets.types[s]] == type) candidates.push_back(s);
+      if (sets.type_names[sets.types[s]] == type && (usable.empty() || usable[s])) candidates.push_back(s);
   }
   // A type without a set: no group at all.
   if (std::none_of(of_type_.begin(), of_type_.end(), [](const auto& of) { return of.empty(); }))
-    extend(feature, overlap);
+    extend(feature, types, overlap);
 }
 
-void WorkingSetGroups::extend(const ModelFeature& feature, const BitMatrix& overlap) {
+void WorkingSetGroups::extend(const ModelFeature& feature, const std::vector<std::string>& types,
+                              const BitMatrix& overlap) {
   const std::size_t position = group_.size();
   if (position == of_type_.size()) {
     groups_.insert(groups_.end(), group_.begin(), group_.end());
@@ -35,12 +38,18 @@ void WorkingSetGroups::extend(const ModelFeature& feature, const BitMatrix& over
   for (Index s : of_type_[position]) {
     bool fits = true;
     for (std::size_t i = 0; i < position && fits; ++i)
-      fits = !overlap.get(group_[i], s) && (feature.worksets[i] != feature.worksets[position] || group_[i] < s);
+      fits = !overlap.get(group_[i], s) && (types[i] != types[position] || group_[i] < s);
     if (!fits) continue;
     group_.push_back(s);
-    extend(feature, overlap);
+    extend(feature, types, overlap);
     group_.pop_back();
   }
+}
+
+void WorkingSetGroups::keep(const std::vector<std::size_t>& groups) {
+  std::vector<Index> kept;
+  for (const std::size_t g : groups) kept.insert(kept.end(), (*this)[g].begin(), (*this)[g].end());
+  groups_ = std::move(kept);
 }
 
 void GroupPoints::gather(const MeshView& mesh, std::span<const double> vertex_areas, const WorkingSets& sets,
@@ -55,6 +64,19 @@ void GroupPoints::gather(const MeshView& mesh, std::span<const double> vertex_ar
     }
     offsets.push_back(static_cast<Index>(points.size()));
   }
+}
+
+Box principal_box(std::span<const Vec3> points) {
+  const PrincipalAxes principal = principal_axes(points);
+  Box box{principal.centroid, principal.axes, {}};
+  for (int k = 0; k < 3; ++k) {
+    const auto [low, high] = std::minmax_element(points.begin(), points.end(), [&](const Vec3& p, const Vec3& q) {
+      return p.dot(box.axes[k]) < q.dot(box.axes[k]);
+    });
+    box.sides[k] = (*high - *low).dot(box.axes[k]);
+    box.center += ((*high + *low) / 2 - principal.centroid).dot(box.axes[k]) * box.axes[k];
+  }
+  return box;
 }
 
 std::vector<double> areas_of_vertices(const MeshView& mesh) {

@@ -13,8 +13,14 @@ namespace toposcope {
 /// so that each group comes once.
 class WorkingSetGroups {
  public:
+  /// \param types   of the group's sets: the feature's worksets or those of its second look
+  /// \param usable  per set; empty: all are
   /// \throw UsageError  over a million groups
-  WorkingSetGroups(const ModelFeature& feature, const WorkingSets& sets, const BitMatrix& overlap);
+  WorkingSetGroups(const ModelFeature& feature, const std::vector<std::string>& types, const WorkingSets& sets,
+                   const BitMatrix& overlap, const std::vector<bool>& usable = {});
+
+  /// Keeps these groups alone, ascending.
+  void keep(const std::vector<std::size_t>& groups);
 
   std::size_t arity() const { return of_type_.size(); }
   std::size_t size() const { return groups_.size() / of_type_.size(); }
@@ -23,7 +29,7 @@ class WorkingSetGroups {
   }
 
  private:
-  void extend(const ModelFeature& feature, const BitMatrix& overlap);
+  void extend(const ModelFeature& feature, const std::vector<std::string>& types, const BitMatrix& overlap);
 
   std::vector<std::vector<Index>> of_type_;
   std::vector<Index> group_;
@@ -39,6 +45,9 @@ struct GroupPoints {
   void gather(const MeshView& mesh, std::span<const double> vertex_areas, const WorkingSets& sets,
               std::span<const Index> group);
 };
+
+/// The box along the principal axes: a stand-in for bb(w) of many groups, of which few are kept.
+Box principal_box(std::span<const Vec3> points);
 
 /// A third of the triangles around each vertex.
 std::vector<double> areas_of_vertices(const MeshView& mesh);

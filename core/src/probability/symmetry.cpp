@@ -15,6 +15,7 @@ std::string signature(const ModelFeature& feature, bool by_detectability) {
   if (by_detectability) text += "|" + std::to_string(feature.detectability);
   for (const auto& [name, value] : feature.shape.arguments) text += "|" + name + "=" + value;
   for (const std::string& type : feature.worksets) text += "|" + type;
+  for (const std::string& type : feature.second_look) text += "|again " + type;
   for (const Range& range : feature.ranges)
     text +=
         "|" + (range.low ? range.low->text() : "") + "<" + range.measure + "<" + (range.high ? range.high->text() : "");

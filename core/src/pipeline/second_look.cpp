@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/second_look.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "pipeline/labeling_problem.h"
+#include "probability/likelihood.h"
+
+namespace toposcope {
+namespace {
+
+constexpr std::size_t most_fits = 400;  // of a feature: about as many as at the first look
+constexpr double near_violation = 2;    // in tolerances: a box tells centroid and direction of a shape but roughly
+constexpr std::size_t grain = 32;
+
+/// Where to look for one feature.
+class Look {
+ public:
+  Look(const MeshView& mesh, const Model& model, const WorkingSets& sets,
+       std::span<const std::optional<Index>> labelled, const Stations& stations, const ConstructedFeatures& features,
+       Index feature)
+      : mesh_(mesh),
+        model_(model),
+        sets_(sets),
+        labelled_(labelled),
+        stations_(stations),
+        features_(features),
+        feature_(feature) {
+    for (Index r = 0; r < model.relationships.size(); ++r) {
+      const std::vector<Index>& scope = model.relationships[r].features;
+      const bool known = std::all_of(scope.begin(), scope.end(), [&](Index f) { return f == feature || labelled[f]; });
+      if (known && std::find(scope.begin(), scope.end(), feature) != scope.end()) relationships_.push_back(r);
+    }
+    const std::vector<Index>& fitted = features.of_feature[feature].constructed;
+    if (!fitted.empty()) orientation_ = features.all[fitted.front()].shape.orientation;
+  }
+
+  std::vector<bool> free_sets(const BitMatrix& overlap) const {
+    std::vector<bool> free(sets_.size(), true);
+    for (Index other = 0; other < labelled_.size(); ++other) {
+      if (other == feature_ || !labelled_[other]) continue;
+      for (Index taken : features_.all[*labelled_[other]].sets)
+        for (Index s = 0; s < sets_.size(); ++s)
+          if (overlap.get(taken, s)) free[s] = false;
+    }
+    return free;
+  }
+
+  /// Ascending.
+  std::vector<std::size_t> worth_a_fit(const WorkingSetGroups& groups, Context& context) const {
+    std::vector<char> may(groups.size(), 1);
+    if (!relationships_.empty())
+      context.parallel_for(groups.size(), grain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t g = first; g < last && !context.cancelled(); ++g) may[g] = may_relate(groups[g], context);
+      });
+    std::vector<std::size_t> kept;
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (may[g]) kept.push_back(g);
+    if (kept.size() > most_fits) {
+      std::stable_sort(kept.begin(), kept.end(),
+                       [&](std::size_t a, std::size_t b) { return worth(groups[a]) > worth(groups[b]); });
+      kept.resize(most_fits);
+      std::sort(kept.begin(), kept.end());
+    }
+    return kept;
+  }
+
+ private:
+  bool may_relate(std::span<const Index> group, Context& context) const {
+    ConstructedFeature box;
+    box.sets.assign(group.begin(), group.end());
+    for (const Index s : group)
+      for (const Index v : sets_[s]) box.points.push_back(mesh_.positions[v]);
+    box.box = principal_box(box.points);
+    box.shape.orientation = orientation_;
+    box.shape.direction = box.box.axes[orientation_ == Orientation::line_like ? 0 : 2];
+    box.shape.centroid = box.box.center;
+    box.shape.outline = box.points;
+    std::vector<const ConstructedFeature*> operands;
+    return std::all_of(relationships_.begin(), relationships_.end(), [&](Index r) {
+      operands.clear();
+      for (const Index f : model_.relationships[r].features)
+        operands.push_back(f == feature_ ? &box : &features_.all[*labelled_[f]]);
+      const RelationResult result = test_relationship(mesh_, model_, r, operands, stations_, context);
+      return !result.applicable || violation(result) <= near_violation;
+    });
+  }
+
+  /// As the classifier ranks its sets.
+  double worth(std::span<const Index> group) const {
+    return std::accumulate(group.begin(), group.end(), 0.0, [&](double sum, Index s) {
+      return sum + sets_.saliency[s] * std::sqrt(static_cast<double>(sets_[s].size()));
+    });
+  }
+
+  const MeshView& mesh_;
+  const Model& model_;
+  const WorkingSets& sets_;
+  std::span<const std::optional<Index>> labelled_;
+  const Stations& stations_;
+  const ConstructedFeatures& features_;
+  Index feature_;
+  std::vector<Index> relationships_;  ///< with features that are labelled
+  Orientation orientation_ = Orientation::none;
+};
+
+}  // namespace
+
+bool has_second_look(const Model& model) {
+  return std::any_of(model.features.begin(), model.features.end(),
+                     [](const ModelFeature& feature) { return !feature.second_look.empty(); });
+}
+
+bool look_again(const MeshView& mesh, const Model& model, const WorkingSets& sets, const BitMatrix& overlap,
+                std::span<const std::optional<Index>> labelled, const Stations& stations, Context& context,
+                ConstructedFeatures& features) {
+  const std::size_t before = features.all.size();
+  for (Index f = 0; f < model.features.size(); ++f) {
+    const ModelFeature& feature = model.features[f];
+    if (feature.second_look.empty()) continue;
+    const Look look(mesh, model, sets, labelled, stations, features, f);
+    WorkingSetGroups groups(feature, feature.second_look, sets, overlap, look.free_sets(overlap));
+    const std::size_t ways = groups.size();
+    groups.keep(look.worth_a_fit(groups, context));
+    construct_more(mesh, model, sets, f, groups, ways, stations, context, features);
+  }
+  return features.all.size() > before;
+}
+
+}  // namespace toposcope

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A second look fits the groups that a feature names for it, of what no other feature has taken, and loses nothing of
+// the first.
+
+#include "pipeline/second_look.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "mesh/mesh.h"
+#include "model/read_model.h"
+#include "pipeline/pipeline_manifest.h"
+#include "support/meshes.h"
+#include "support/plugins.h"
+
+namespace toposcope {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+
+constexpr const char* two_features = R"(
+schema: toposcope.model/1
+name: frame
+features:
+  bar: {worksets: [convex], shape: lgrp1}
+  pair: {worksets: [convex], second_look: [convex, convex], shape: lgrp3}
+)";
+
+/// Of a grid of 21 x 21 vertices, one apart: set 0 the first row, set 1 the first two, sets 2 and 3 the rows 8 and 12.
+struct SecondLook : ::testing::Test {
+  SecondLook() : mesh(test::make_grid(20, 20, 20, 20), "grid") {
+    const fs::path path = fs::path(::testing::TempDir()) / "second_look.yaml";
+    std::ofstream(path) << two_features;
+    model = read_model(path, &test::host().catalog());
+    const fs::path pipeline = fs::path(TOPOSCOPE_SOURCE_DIR) / "pipelines/default.yaml";
+    stations = make_stations(test::host(), read_pipeline(pipeline, test::host().catalog()), model);
+    sets.type_names = {"convex"};
+    add_rows(0, 0);
+    add_rows(0, 1);
+    add_rows(8, 8);
+    add_rows(12, 12);
+    overlap = overlaps(sets, mesh.view().vertex_count());
+    features = construct_features(mesh.view(), model, sets, overlap, stations, test::context(2));
+  }
+
+  void add_rows(double first, double last) {
+    const double low = mesh.view().positions.front().y();
+    for (Index v = 0; v < mesh.view().vertex_count(); ++v) {
+      const double row = mesh.view().positions[v].y() - low;
+      if (row > first - 0.5 && row < last + 0.5) sets.vertices.push_back(v);
+    }
+    sets.types.push_back(0);
+    sets.saliency.push_back(1);
+    sets.offsets.push_back(static_cast<Index>(sets.vertices.size()));
+  }
+
+  std::set<std::vector<Index>> groups_of(Index feature) const {
+    std::set<std::vector<Index>> groups;
+    for (Index c : features.of_feature[feature].constructed) groups.insert(features.all[c].sets);
+    return groups;
+  }
+
+  /// The candidate of a feature that is made of these sets.
+  Index candidate(Index feature, const std::vector<Index>& of_sets) const {
+    for (Index c : features.of_feature[feature].constructed)
+      if (features.all[c].sets == of_sets) return c;
+    ADD_FAILURE() << "no such candidate";
+    return 0;
+  }
+
+  bool look(const std::vector<std::optional<Index>>& labelled) {
+    return look_again(mesh.view(), model, sets, overlap, labelled, stations, test::context(2), features);
+  }
+
+  Mesh mesh;
+  Model model;
+  Stations stations;
+  WorkingSets sets;
+  BitMatrix overlap;
+  ConstructedFeatures features;
+};
+
+TEST_F(SecondLook, AddsTheGroupsThatAFeatureNamesForIt) {
+  const std::set<std::vector<Index>> first = groups_of(1);
+  EXPECT_THAT(first,
+              ElementsAre(std::vector<Index>{0}, std::vector<Index>{1}, std::vector<Index>{2}, std::vector<Index>{3}));
+  EXPECT_TRUE(look({{}, {}}));
+  using Group = std::vector<Index>;
+  EXPECT_THAT(groups_of(1), ElementsAre(Group{0}, Group{0, 2}, Group{0, 3}, Group{1}, Group{1, 2}, Group{1, 3},
+                                        Group{2}, Group{2, 3}, Group{3}));
+  EXPECT_EQ(groups_of(0), first);  // it names none
+  const FeatureCandidates& pair = features.of_feature[1];
+  EXPECT_EQ(pair.count.groups, 9u);
+  EXPECT_EQ(pair.count.kept, pair.constructed.size());
+  EXPECT_TRUE(std::is_sorted(pair.evidence.rbegin(), pair.evidence.rend()));
+}
+
+TEST_F(SecondLook, LeavesAloneWhatAnotherFeatureHasTaken) {
+  EXPECT_TRUE(look({candidate(0, {0}), candidate(1, {2})}));
+  // Set 1 shares vertices with set 0, which is the bar's; set 2 is the pair's own.
+  using Group = std::vector<Index>;
+  EXPECT_THAT(groups_of(1), ElementsAre(Group{0}, Group{1}, Group{2}, Group{2, 3}, Group{3}));
+}
+
+TEST_F(SecondLook, SaysWhereItFindsNothingNew) {
+  model.features[1].second_look = {"concave", "concave"};  // the mesh has none
+  EXPECT_FALSE(look({{}, {}}));
+  EXPECT_EQ(features.of_feature[1].count.groups, 4u);
+}
+
+/// Two parallel edges four apart, as those of a fin under a T-tail: the lines run along both, and one joins them.
+TEST_F(SecondLook, TwoEdgesThatDoNotMeetMakeOneLineGroup) {
+  ASSERT_TRUE(look({{}, {}}));
+  const FittedShape& shape = features.all[candidate(1, {2, 3})].shape;
+  const auto fitter = stations.shapes.at("line-group");
+  for (const Index row : {2, 3})
+    for (const Index v : sets[row]) EXPECT_LT(fitter->distance(shape, mesh.view().positions[v]), 0.3) << v;
+  EXPECT_NEAR(shape.measure("length_2")->value, 4, 0.5);
+}
+
+}  // namespace
+}  // namespace toposcope
