@@ -21,6 +21,20 @@ import { hoverText, pickCandidate, pickFeature, pickMark, pickSet } from './view
 import { ownScreen } from './view/screen';
 import { Viewer, type Picked } from './view/viewer';
 
+declare global {
+  interface Window {
+    /** For scripts that drive the page. */
+    toposcope?: {
+      state(): State;
+      set(change: Partial<State>): void;
+      /** A point of the mesh's frame in the window's pixels. */
+      project(point: [number, number, number]): [number, number];
+      /** Whether all is drawn, the shading of hollows too. */
+      idle(): boolean;
+    };
+  }
+}
+
 const TURN_DEG = 8, ZOOM = 1.15, PAN = 0.06;
 
 export class ScenePage {
@@ -70,12 +84,21 @@ export class ScenePage {
     onTheme(() => this.render());
     listenToKeys(this.keys, this.viewer?.element ?? this.view);
     this.render();
+    window.toposcope = {
+      state: () => this.store.state,
+      set: (change) => this.store.set(change),
+      project: (point) => {
+        const box = this.view.getBoundingClientRect(), [x, y] = this.viewer?.project(point) ?? [NaN, NaN];
+        return [box.left + x, box.top + y];
+      },
+      idle: () => this.viewer?.idle ?? true,
+    };
   }
 
   private openView(): void {
     try {
       const { positions } = this.scene.input;
-      const frame = firstView(positions, this.scene.directions(middle(positions)));
+      const frame = firstView(this.scene.input, this.scene.directions(middle(positions)), this.scene.foundPoints());
       this.viewer = new Viewer(ownScreen(), frame, '3-D view of the mesh: arrow keys turn it, plus and minus zoom, Enter picks what lies under the middle');
     } catch (error) {
       this.view.append(h('p', { class: 'notice error' }, `The view cannot be drawn: ${(error as Error).message}. It needs a browser with WebGL 2; the tables beside it need none.`));

@@ -110,6 +110,12 @@ export class Scene {
     return directions(this.document.model, places, middle);
   }
 
+  /** Coordinates of the found shapes' lines. */
+  foundPoints(): Float32Array {
+    const points = this.features.flatMap(({ drawing }) => (drawing?.lines ?? []).flatMap((line) => [...floats(line, 'line')]));
+    return Float32Array.from(points);
+  }
+
   /** Marks of the truth file beside the mesh; none of it is a copy that a change would reach. */
   marks(): Marks {
     const { truth, marks } = this.document;

@@ -26,34 +26,48 @@ function mean(points: Point[]): Point | null {
   return sum;
 }
 
+const dot = (a: Point, b: Point): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+interface Sum {
+  axis: Axis;
+  sum: Point;
+  /** Associations of which both objects hold found features. */
+  sure: number;
+}
+
 /**
- * Unit directions, as far as the model's associations tell them. An object lies at the mean of the found features that it
- * holds; one that holds none, at `middle`.
+ * Unit directions at right angles, as far as the model's associations tell them. An object lies at the mean of the found features
+ * that it holds; one that holds none, at `middle`. A fin that is up of the fuselage lies far back too: what an axis has of a surer one, or
+ * of one before it in the order right, front, up, is taken away.
  */
 export function directions(model: ModelFile | undefined, places: Map<string, Point>, middle: Point): Partial<Record<Axis, Point>> {
-  const sums: Partial<Record<Axis, Point>> = {};
-  for (const association of model?.associations ?? []) {
-    const from = association['from'];
-    if (!model || !from) continue;
-    const place = (object: string): Point | null => {
-      const inside = held(model, object);
-      const own = Object.entries(model.features ?? {}).filter(([, feature]) => feature.realises && inside.has(feature.realises));
-      return mean(own.flatMap(([name]) => (places.has(name) ? [places.get(name)!] : [])));
-    };
+  if (!model) return {};
+  const place = (object: string): Point | null => {
+    const inside = held(model, object);
+    const own = Object.entries(model.features ?? {}).filter(([, feature]) => feature.realises && inside.has(feature.realises));
+    return mean(own.flatMap(([name]) => (places.has(name) ? [places.get(name)!] : [])));
+  };
+  const sums: Sum[] = (['right', 'front', 'up'] as const).map((axis) => ({ axis, sum: [0, 0, 0], sure: 0 }));
+  for (const association of model.associations ?? [])
     for (const [relation, to] of Object.entries(association)) {
-      const axis = AXES[relation];
-      if (!axis) continue;
+      const axis = AXES[relation], from = association['from'];
+      if (!axis || !from) continue;
       const a = place(from), b = place(to);
       if (!a && !b) continue;
-      const sum = (sums[axis[0]] ??= [0, 0, 0]);
+      const entry = sums.find((each) => each.axis === axis[0])!;
+      if (a && b) ++entry.sure;
       // "handle, up: body" reads: the handle lies up of the body.
-      for (let k = 0; k < 3; ++k) sum[k]! += axis[1] * ((a ?? middle)[k]! - (b ?? middle)[k]!);
+      for (let k = 0; k < 3; ++k) entry.sum[k]! += axis[1] * ((a ?? middle)[k]! - (b ?? middle)[k]!);
     }
+  const found: Partial<Record<Axis, Point>> = {};
+  for (const { axis, sum } of sums.sort((a, b) => b.sure - a.sure)) {
+    const whole = Math.hypot(...sum);
+    for (const other of Object.values(found)) {
+      const along = dot(sum, other);
+      for (let k = 0; k < 3; ++k) sum[k]! -= along * other[k]!;
+    }
+    const left = Math.hypot(...sum);
+    if (left > 0.02 * whole) found[axis] = sum.map((x) => x / left) as Point;
   }
-  for (const [axis, sum] of Object.entries(sums) as [Axis, Point][]) {
-    const length = Math.hypot(...sum);
-    if (length > 0) sums[axis] = sum.map((x) => x / length) as Point;
-    else delete sums[axis];
-  }
-  return sums;
+  return found;
 }

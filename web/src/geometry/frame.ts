@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From which side an object is first looked at.
-import { Matrix4, Vector3 } from 'three';
+import { Vector3 } from 'three';
 import type { Axis } from '../data/directions';
 import type { Point } from '../data/scene';
-import { spread } from './occlusion';
+import { DepthImage, spread } from './depth_image';
 
 export interface Frame {
   centre: Vector3;
@@ -16,7 +16,7 @@ export interface Frame {
   outermost: Vector3[];
 }
 
-const ELEVATION_DEG = 24, TURN_DEG = 22;
+const ELEVATION_DEG = 24, TURN_DEG = 22, FRONT_TURN_DEG = 38;
 
 function covariance(positions: Float32Array, centre: Vector3): number[][] {
   const m = [[0, 0, 0], [0, 0, 0], [0, 0, 0]];
@@ -73,7 +73,37 @@ function outermost(positions: Float32Array): Vector3[] {
   return [...found].map((i) => new Vector3(positions[i]!, positions[i + 1]!, positions[i + 2]!));
 }
 
-export function firstView(positions: Float32Array, known: Partial<Record<Axis, Point>>): Frame {
+/** From the front, or across the longest direction: to either side of it and from either end. */
+function sides(positions: Float32Array, centre: Vector3, up: Vector3, front: Vector3 | null): Vector3[] {
+  const e = (ELEVATION_DEG * Math.PI) / 180;
+  const turned = (start: Vector3, degrees: number): Vector3 =>
+    start.clone().applyAxisAngle(up, (degrees * Math.PI) / 180).multiplyScalar(Math.cos(e)).addScaledVector(up, Math.sin(e)).normalize();
+  const flat = front?.addScaledVector(up, -front.dot(up));
+  if (flat && flat.lengthSq() > 1e-6) return [FRONT_TURN_DEG, -FRONT_TURN_DEG].map((turn) => turned(flat.normalize(), turn));
+  const across = longest(positions, centre, up).cross(up).normalize();
+  return [TURN_DEG, -TURN_DEG, 180 - TURN_DEG, 180 + TURN_DEG].map((turn) => turned(across, turn));
+}
+
+/** Of several sides, that from which most of the points are seen; an earlier one where it is about as good. */
+function bestSide(candidates: Vector3[], points: Float32Array, surface: { positions: Float32Array; triangles: Uint32Array }, centre: Vector3, radius: number): Vector3 {
+  const image = new DepthImage(surface.positions, surface.triangles, centre.toArray(), radius);
+  const margin = 0.08;
+  let best = candidates[0]!, most = -1;
+  for (const side of candidates) {
+    image.draw(side.toArray());
+    let seen = 0;
+    for (let i = 0; i + 2 < points.length; i += 3) seen += image.seesPoint(points, i) ? 3 / points.length : 0;
+    if (seen > most + margin) {
+      best = side;
+      most = seen;
+    }
+  }
+  return best;
+}
+
+/** \param points  that are to be seen: of the shapes that were found */
+export function firstView(surface: { positions: Float32Array; triangles: Uint32Array }, known: Partial<Record<Axis, Point>>, points: Float32Array): Frame {
+  const { positions } = surface;
   const low = new Vector3(Infinity, Infinity, Infinity), high = low.clone().negate(), point = new Vector3();
   for (let i = 0; i < positions.length; i += 3) {
     point.set(positions[i]!, positions[i + 1]!, positions[i + 2]!);
@@ -84,20 +114,8 @@ export function firstView(positions: Float32Array, known: Partial<Record<Axis, P
   let radius = 0;
   for (let i = 0; i < positions.length; i += 3)
     radius = Math.max(radius, point.set(positions[i]!, positions[i + 1]!, positions[i + 2]!).distanceTo(centre));
+  radius ||= 1;
   const up = known.up ? new Vector3(...known.up) : flattest(high.clone().sub(low));
-  const side = longest(positions, centre, up);
-  const front = known.front ? new Vector3(...known.front) : null;
-  let towards = side.clone().cross(up).normalize();
-  let turn = TURN_DEG;
-  if (front) {
-    front.addScaledVector(up, -front.dot(up));
-    if (front.lengthSq() > 1e-6) {
-      towards = front.normalize();
-      turn = 38;
-    }
-  }
-  towards.applyMatrix4(new Matrix4().makeRotationAxis(up, (turn * Math.PI) / 180));
-  const e = (ELEVATION_DEG * Math.PI) / 180;
-  towards.multiplyScalar(Math.cos(e)).addScaledVector(up, Math.sin(e)).normalize();
-  return { centre, radius: radius || 1, up, towards, outermost: outermost(positions) };
+  const candidates = sides(positions, centre, up, known.front ? new Vector3(...known.front) : null);
+  return { centre, radius, up, towards: bestSide(candidates, points, surface, centre, radius), outermost: outermost(positions) };
 }

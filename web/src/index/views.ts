@@ -55,7 +55,7 @@ export class LinkedViews {
     }
     for (const { name, scene: document_ } of this.documents) {
       const scene = new Scene(document_), { positions } = scene.input;
-      const frame = firstView(positions, scene.directions(middle(positions)));
+      const frame = firstView(scene.input, scene.directions(middle(positions)), scene.foundPoints());
       const viewer = new Viewer(screens(), frame, `3-D view, ${name}: arrow keys turn it, plus and minus zoom`);
       const view: View = { name, scene, viewer };
       viewer.onmove = () => this.follow(view);

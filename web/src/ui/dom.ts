@@ -44,10 +44,10 @@ export function download(name: string, content: Blob | string, type = 'applicati
   setTimeout(() => URL.revokeObjectURL(url), 10_000);
 }
 
-const live = h('div', { class: 'unseen', 'aria-live': 'polite', role: 'status' });
+let live: HTMLElement | null = null;
 
 /** Tells those who listen rather than look. */
 export function announce(text: string): void {
-  if (!live.isConnected) document.body.append(live);
+  live ??= document.body.appendChild(h('div', { class: 'unseen', 'aria-live': 'polite', role: 'status' }));
   live.textContent = text;
 }

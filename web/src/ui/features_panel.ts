@@ -95,7 +95,7 @@ function item(scene: Scene, store: Store, named: NamedFeature): HTMLElement {
     h('span', { class: 'name' }, name, h('small', {}, feature.present ? shortMeasure(feature) : feature.why.reason)),
     feature.present
       ? probabilityBar(feature.probability, color)
-      : h('span', { class: 'absent' }, 'missing', h('small', {}, feature.probability_missing === null ? '' : probability(feature.probability_missing))),
+      : h('span', { class: 'absent' }, 'missing', h('small', {}, feature.probability_missing === null ? '' : `probability ${probability(feature.probability_missing)}`)),
   );
   const detail = selected ? (feature.present ? foundDetail(scene, store, named, feature) : missingDetail(scene, store, named, feature)) : null;
   return h('li', { class: `item${selected ? ' selected' : ''}${inRelation ? ' related' : ''}${feature.present ? '' : ' missing'}` }, button, detail);

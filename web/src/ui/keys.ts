@@ -34,7 +34,7 @@ export function helpDialog(keys: Key[]): HTMLDialogElement {
     h('dl', { class: 'keys' }, [
       ['drag', 'turn; with the right button or two fingers: move'],
       ['wheel, pinch', 'nearer and farther'],
-      ['click', 'select; on the stages “Working sets” and “Candidates” again for the next at that place'],
+      ['click', 'select; on the stages “Working sets” and “Constructed features” again for the next at that place'],
       ...keys.filter((key) => key.shown).map((key) => [key.shown, key.text + (key.view ? ' (while the view has the focus)' : '')]),
     ].map(([name, text]) => h('div', {}, h('dt', {}, name!), h('dd', {}, text!)))),
     h('form', { method: 'dialog' }, h('button', { class: 'plain strong' }, 'Close')),

@@ -4,12 +4,14 @@ import { count, figure, plural, probability } from '../data/numbers';
 import type { Scene } from '../data/decoded';
 import type { Marking } from '../data/marking';
 import { STAGES, type Stage, type Store } from '../state';
+import { distinctShapes } from '../view/compose';
 import { h, swatch } from './dom';
 import { icon } from './icons';
 import { rows } from './features_panel';
 import { markingTools } from './marking_tools';
 
-export const TITLES: Record<Stage, string> = { mesh: 'Mesh', sets: 'Working sets', constructed: 'Candidates', found: 'Found features', marks: 'Marks' };
+export const TITLES: Record<Stage, string> = { mesh: 'Mesh', sets: 'Working sets', constructed: 'Constructed features', found: 'Found features', marks: 'Marks' };
+const SHORT: Record<Stage, string> = { ...TITLES, constructed: 'Constructed', found: 'Found' };
 
 function summary(scene: Scene, marking: Marking, stage: Stage): string {
   const { document, result } = scene;
@@ -35,7 +37,7 @@ export function stageNavigation(scene: Scene, store: Store, marking: Marking): H
         'aria-keyshortcuts': String(i + 1), onclick: () => store.set({ stage }),
       },
       h('span', { class: 'number', 'aria-hidden': 'true' }, i + 1),
-      h('span', { class: 'name' }, TITLES[stage], h('small', {}, summary(scene, marking, stage))),
+      h('span', { class: 'name' }, SHORT[stage], h('small', {}, summary(scene, marking, stage))),
     )),
   ));
 }
@@ -70,7 +72,7 @@ function setTools(scene: Scene, store: Store): HTMLElement[] {
   const { state } = store, sets = scene.document.working_sets ?? [];
   const current = state.set === null ? null : sets[state.set];
   const nodes: HTMLElement[] = [
-    h('p', {}, 'Connected regions of one kind of curvature, from the bottom up, at every scale: the material that shapes are fitted to.'),
+    h('p', {}, 'Connected regions of one kind of curvature, from the bottom up, at every scale: the material that shapes are fitted to. Sets overlap; of two types the one that covers less is shown.'),
     h('div', { class: 'chips', role: 'group', 'aria-label': 'Types of working sets' }, scene.setTypes.map((type) =>
       h(
         'button', {
@@ -99,6 +101,12 @@ function setTools(scene: Scene, store: Store): HTMLElement[] {
   return nodes;
 }
 
+function shapeLegend(scene: Scene): HTMLElement {
+  const counts = new Map<string, { color: string; n: number }>();
+  for (const { candidate, color } of distinctShapes(scene)) counts.set(candidate.shape, { color, n: (counts.get(candidate.shape)?.n ?? 0) + 1 });
+  return h('ul', { class: 'legend' }, [...counts].map(([shape, { color, n }]) => h('li', {}, swatch(color), `${shape}: ${count(n)}`)));
+}
+
 function candidateTools(scene: Scene, store: Store): HTMLElement[] {
   const { state } = store;
   const choose = (name: string | null): void => store.set({ candidateOf: name, rank: 1 });
@@ -114,7 +122,7 @@ function candidateTools(scene: Scene, store: Store): HTMLElement[] {
       ),
     ),
   ];
-  if (state.candidateOf === null) return nodes;
+  if (state.candidateOf === null) return [...nodes, shapeLegend(scene)];
   if (!current) return [...nodes, h('p', { class: 'notice' }, `No shape could be fitted for ${state.candidateOf} within its ranges.`)];
   const position = list.indexOf(current) + 1;
   const kept = scene.result.candidates[state.candidateOf]?.['kept'] ?? list.length;

@@ -37,4 +37,4 @@ export interface Colors {
 export const colors = (): Colors =>
   theme() === 'dark'
     ? { surface: [158, 166, 178], edge: '#0c1016', halo: '#0e1319', ground: '#1a2028', strong: '#ffffff' }
-    : { surface: [224, 226, 230], edge: '#39424f', halo: '#ffffff', ground: '#eef1f5', strong: '#10161f' };
+    : { surface: [208, 211, 217], edge: '#39424f', halo: '#ffffff', ground: '#eef1f5', strong: '#10161f' };

@@ -8,7 +8,7 @@ import type { State } from '../state';
 import { colors } from '../ui/theme';
 import { dots, drawn, type Style } from './drawn';
 import type { Label } from './labels';
-import { chosenFeatures, paint, ranks, surfaceOf } from './paint';
+import { chosenFeatures, css, mixed, paint, ranks, rgb, surfaceOf } from './paint';
 import type { Viewer } from './viewer';
 
 export interface Shown {
@@ -31,6 +31,19 @@ export function nearestCandidate(scene: Scene, { name, feature }: NamedFeature):
 export function bestCandidate(scene: Scene, { name, feature }: NamedFeature): Candidate | null {
   if (!feature.present) return null;
   return scene.candidates(name).find((each) => equal(each.parameters, feature.parameters)) ?? null;
+}
+
+const SHAPE_COLORS: Record<string, string> = { circle: '#d55e00', plane: '#0072b2', 'line-group': '#e69f00', sphere: '#cc79a7', cylinder: '#009e73' };
+
+/** The candidates of all features, each fit once. */
+export function distinctShapes(scene: Scene): { candidate: Candidate; color: string }[] {
+  const seen = new Set<string>();
+  return (scene.document.candidates ?? []).flatMap((candidate) => {
+    const key = JSON.stringify([candidate.shape, candidate.working_sets]);
+    if (seen.has(key)) return [];
+    seen.add(key);
+    return [{ candidate, color: SHAPE_COLORS[candidate.shape] ?? '#cc79a7' }];
+  });
 }
 
 /** The shapes of a labelling. */
@@ -69,8 +82,13 @@ class Composer {
     });
   }
 
+  /** A feature's colour as it shows through the surface. */
+  private pale(feature: NamedFeature, part: number): string {
+    return css(mixed(this.palette.surface, rgb(feature.color), part));
+  }
+
   /** Found shapes, strong where they are chosen. */
-  found(strength: number): void {
+  found(): void {
     const shown = labelled(this.scene, this.state.stage === 'found' ? this.state.labelling : 0);
     for (const feature of this.scene.features) {
       const nearest = this.chosen.has(feature.name) ? nearestCandidate(this.scene, feature) : null;
@@ -78,13 +96,13 @@ class Composer {
     }
     for (const { feature, drawing, doubtful } of shown) {
       const faint = this.chosen.size > 0 && !this.chosen.has(feature.name);
+      const chosen = this.chosen.has(feature.name);
       this.draw(drawing, {
-        color: feature.color,
-        width: (doubtful ? 2 : this.chosen.has(feature.name) ? 5 : 4) * (strength < 1 ? 0.6 : 1),
-        halo: this.palette.halo,
-        opacity: strength * (faint ? 0.3 : doubtful ? 0.75 : 1),
-        fill: strength * (faint ? 0.06 : 0.22),
-        hidden: 0.4,
+        color: faint ? this.pale(feature, 0.3) : feature.color,
+        width: faint || doubtful ? 2 : chosen ? 5 : 4,
+        ...(faint ? {} : { halo: this.palette.halo }),
+        fill: faint ? 0.06 : 0.22,
+        hidden: this.pale(feature, faint ? 0.16 : chosen ? 0.7 : 0.45),
       });
       this.label(feature, drawing, doubtful ? `${feature.name}: nearest candidate` : feature.name);
     }
@@ -94,25 +112,27 @@ class Composer {
     if (this.chosen.size === 0) return;
     for (const { feature, drawing } of labelled(this.scene, 0)) {
       if (!this.chosen.has(feature.name)) continue;
-      this.draw(drawing, { color: feature.color, width: 3, halo: this.palette.halo, fill: 0.12, hidden: 0.3 });
+      this.draw(drawing, { color: feature.color, width: 3, halo: this.palette.halo, fill: 0.12, hidden: this.pale(feature, 0.45) });
       this.label(feature, drawing);
     }
   }
 
+  /** All candidates by shape, each fit once however many features share it. */
+  allCandidates(): void {
+    for (const { candidate, color } of distinctShapes(this.scene))
+      this.draw({ lines: candidate.drawing.lines ?? [] }, { color, width: 1.6, hidden: css(mixed(this.palette.surface, rgb(color), 0.25)) });
+  }
+
   candidates(): void {
     const { candidateOf, rank, allCandidates } = this.state;
-    for (const feature of this.scene.features) {
-      if (candidateOf !== null && feature.name !== candidateOf) continue;
-      const candidates = this.scene.candidates(feature.name);
-      const current = candidateOf === null ? null : candidates.find((each) => each.rank === rank);
-      if (candidateOf === null || allCandidates)
-        for (const each of candidates)
-          if (each !== current)
-            this.draw({ lines: each.drawing.lines ?? [] }, { color: feature.color, width: 1.4, opacity: candidateOf === null ? 0.75 : 0.5, hidden: 0.25 });
-      if (!current) continue;
-      this.draw(current.drawing, { color: feature.color, width: 5, halo: this.palette.halo, fill: 0.25, hidden: 0.5 });
-      this.label(feature, current.drawing, `${feature.name}, candidate ${current.rank}`);
-    }
+    const feature = this.scene.feature(candidateOf);
+    if (!feature) return this.allCandidates();
+    const candidates = this.scene.candidates(feature.name), current = candidates.find((each) => each.rank === rank);
+    for (const each of allCandidates ? candidates : [])
+      if (each !== current) this.draw({ lines: each.drawing.lines ?? [] }, { color: this.pale(feature, 0.6), width: 1.4, hidden: this.pale(feature, 0.2) });
+    if (!current) return;
+    this.draw(current.drawing, { color: feature.color, width: 5, halo: this.palette.halo, fill: 0.25, hidden: this.pale(feature, 0.7) });
+    this.label(feature, current.drawing, `${feature.name}, no. ${current.rank}`);
   }
 
   marks(marking: Marking): void {
@@ -158,7 +178,7 @@ export function compose(viewer: Viewer, scene: Scene, state: State, marking: Mar
   surface.edges(edges ? 0.62 : 0, palette.edge);
   viewer.clearDrawings();
   const composer = new Composer(viewer, scene, state);
-  if (state.stage === 'found') composer.found(1);
+  if (state.stage === 'found') composer.found();
   else if (state.stage === 'constructed') composer.candidates();
   else if (state.stage === 'marks') composer.marks(marking);
   else composer.chosenShapes();

@@ -13,18 +13,17 @@ export interface Style {
   width: number;
   /** Colour of the outline around lines; none where absent. */
   halo?: string;
-  opacity?: number;
   /** Opacity of a patch's inside. */
   fill?: number;
-  /** Opacity of what the surface hides. */
-  hidden?: number;
+  /** Colour of what the surface hides; not drawn where absent. Lines are opaque: their segments overlap. */
+  hidden?: string;
 }
 
 /** Towards the viewer, in parts of the depth range: a fitted circle runs partly a little below the surface. */
 const BIAS = 0.012;
 
-function lineMaterial(color: string, width: number, opacity: number): LineMaterial {
-  const material = new LineMaterial({ color: new Color().setStyle(color), linewidth: width, transparent: true, opacity });
+function lineMaterial(color: string, width: number): LineMaterial {
+  const material = new LineMaterial({ color: new Color().setStyle(color), linewidth: width, transparent: true, depthWrite: false });
   material.onBeforeCompile = (shader): void => {
     shader.vertexShader = shader.vertexShader.replace(
       '#include <logdepthbuf_vertex>',
@@ -37,7 +36,6 @@ function lineMaterial(color: string, width: number, opacity: number): LineMateri
 function polyline(points: Float32Array, style: Style): Line2[] {
   const geometry = new LineGeometry();
   geometry.setPositions(points);
-  const opacity = style.opacity ?? 1;
   const lines: Line2[] = [];
   const add = (material: LineMaterial, order: number): void => {
     const line = new Line2(geometry, material);
@@ -46,19 +44,12 @@ function polyline(points: Float32Array, style: Style): Line2[] {
     lines.push(line);
   };
   if (style.hidden) {
-    const material = lineMaterial(style.color, style.width * 0.6, style.hidden * opacity);
+    const material = lineMaterial(style.hidden, Math.max(1.2, style.width * 0.5));
     material.depthFunc = GreaterDepth;
-    material.depthWrite = false;
     add(material, 1);
   }
-  if (style.halo) {
-    const material = lineMaterial(style.halo, style.width + 3, 0.85 * opacity);
-    material.depthWrite = false;
-    add(material, 3);
-  }
-  const material = lineMaterial(style.color, style.width, opacity);
-  material.depthWrite = false;
-  add(material, 4);
+  if (style.halo) add(lineMaterial(style.halo, style.width + 2.6), 3);
+  add(lineMaterial(style.color, style.width), 4);
   return lines;
 }
 

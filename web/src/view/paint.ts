@@ -10,6 +10,8 @@ export function rgb(color: string): Rgb {
   return [(value >> 16) & 255, (value >> 8) & 255, value & 255];
 }
 
+export const css = (color: Rgb): string => `rgb(${color.join(', ')})`;
+
 export const mixed = (a: Rgb, b: Rgb, part: number): Rgb => a.map((x, k) => Math.round(x + (b[k]! - x) * part)) as Rgb;
 
 class Paint {

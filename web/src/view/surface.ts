@@ -34,14 +34,15 @@ vec3 linear(vec3 c) { return pow(c, vec3(2.2)); }
 void main() {
   vec3 n = normalize(vNormal);
   vec3 v = isOrthographic ? vec3(0.0, 0.0, 1.0) : normalize(-vPosition);
-  bool inside = dot(n, v) < 0.0 && !gl_FrontFacing;
-  if (!gl_FrontFacing) n = -n;
+  // At an outline slivers of what faces away show through; they are lit as what lies beside them.
+  bool inside = !gl_FrontFacing && dot(n, v) < -0.25;
+  if (inside) n = -n;
   vec3 base = linear(vTint);
   float open = mix(0.30, 1.0, vSky);
-  const vec3 key = normalize(vec3(-0.45, 0.70, 0.62)), fill = normalize(vec3(0.75, 0.05, 0.55));
-  float lit = max(dot(n, key), 0.0), filled = max(dot(n, fill), 0.0);
+  const vec3 key = normalize(vec3(-0.50, 0.55, 0.67)), fill = normalize(vec3(0.75, 0.05, 0.55));
+  float lit = max(dot(n, key) + 0.2, 0.0) / 1.2, filled = 0.5 + 0.5 * dot(n, fill);
   vec3 hemisphere = mix(vec3(0.42, 0.41, 0.41), vec3(0.66, 0.69, 0.74), 0.5 + 0.5 * n.y);
-  vec3 light = hemisphere * open + vec3(0.60, 0.58, 0.55) * lit * mix(0.72, 1.0, vSky) + vec3(0.10, 0.11, 0.13) * filled * open;
+  vec3 light = hemisphere * open + vec3(0.56, 0.54, 0.51) * lit * mix(0.72, 1.0, vSky) + vec3(0.10, 0.11, 0.13) * filled * open;
   vec3 h = normalize(key + v);
   float gloss = 0.10 * pow(max(dot(n, h), 0.0), 42.0) * vSky;
   float rim = 0.10 * pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 3.0);
@@ -52,7 +53,7 @@ void main() {
     float pixels = 1.0 / max(max(w.x, w.y), w.z);
     vec3 near = smoothstep(vec3(0.0), 1.15 * w, vCorner);
     float line = 1.0 - min(min(near.x, near.y), near.z);
-    c = mix(c, linear(edgeTint), edges * line * smoothstep(1.5, 9.0, pixels));
+    c = mix(c, linear(edgeTint), edges * line * smoothstep(0.8, 6.0, pixels));
   }
   color = vec4(c, 1.0);
   color = linearToOutputTexel(color);

@@ -55,6 +55,11 @@ export class Viewer {
     }).observe(this.element);
   }
 
+  /** Whether all is drawn, the shading of hollows too. */
+  get idle(): boolean {
+    return !this.requested && !this.shading && this.frames > 0;
+  }
+
   get surface(): Surface | null {
     return this.shown;
   }
