@@ -138,7 +138,7 @@ export function scene(): SceneDocument {
       candidate('bottom', 1, disc(30), [1], bottom),
       candidate('handle', 1, circle(low.center, low.radius), [2], low),
     ],
-    found: [{ feature: 'rim', drawing: circle(RIM.center, RIM.radius) }, { feature: 'bottom', drawing: disc(30) }],
+    found: [{ feature: 'rim', rank: 1, drawing: circle(RIM.center, RIM.radius) }, { feature: 'bottom', rank: 1, drawing: disc(30) }],
     truth: null,
     model: {
       name: 'cup',

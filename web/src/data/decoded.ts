@@ -17,6 +17,8 @@ export interface NamedFeature {
   color: string;
   feature: Feature;
   drawing: Drawing | null;
+  /** The candidate that it is, as far as that is written. */
+  candidate: Candidate | null;
 }
 
 const FALLBACK = ['#009e73', '#cc79a7', '#56b4e9', '#e69f00', '#0072b2', '#d55e00', '#f0e442', '#5a5a5a'];
@@ -47,13 +49,14 @@ export class Scene {
           triangles: indices(normalised.triangles, 'surfaces.normalised.triangles'),
         }
       : this.input;
-    const drawings = new Map((document.found ?? []).map(({ feature, drawing }) => [feature, drawing]));
+    const found = new Map((document.found ?? []).map((each) => [each.feature, each]));
     this.features = Object.entries(document.result.features).map(([name, feature], index) => ({
       name,
       index,
       color: document.palette?.features?.[index] ?? FALLBACK[index % FALLBACK.length]!,
       feature,
-      drawing: drawings.get(name) ?? null,
+      drawing: found.get(name)?.drawing ?? null,
+      candidate: this.candidate(name, found.get(name)?.rank ?? 0),
     }));
     this.setColors = new Map();
     for (const type of this.setTypes)

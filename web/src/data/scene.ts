@@ -86,7 +86,7 @@ export interface Result {
   plugins: { kind: string; id: string; version: string; options: Record<string, string> }[];
 }
 
-export interface InputSurface {
+export interface Surface {
   mesh_vertices: number;
   mesh_triangles: number;
   shown_vertices: number;
@@ -98,11 +98,6 @@ export interface InputSurface {
   vertex_ids?: Buffer;
 }
 
-export interface NormalisedSurface {
-  positions: Buffer;
-  triangles: Buffer;
-  shown_to_mesh?: Buffer;
-}
 
 export interface Drawing {
   lines?: Buffer[];
@@ -114,6 +109,7 @@ export interface WorkingSet {
   type: string;
   vertices: Buffer;
   size: number;
+  /** How clearly it stands out, 0 to 1. */
   level?: number | null;
 }
 
@@ -147,11 +143,11 @@ export interface SceneDocument {
   program: string;
   unit?: string;
   result: Result;
-  surfaces: { input: InputSurface; normalised?: NormalisedSurface | null };
+  surfaces: { input: Surface; normalised?: Surface | null };
   working_sets?: WorkingSet[];
   all_working_sets?: { type: string; vertices: Buffer; count?: number }[];
   candidates?: Candidate[];
-  found?: { feature: string; drawing: Drawing }[];
+  found?: { feature: string; rank?: number; drawing: Drawing }[];
   marks?: Record<string, Point[]> | null;
   truth?: TruthFile | null;
   model?: ModelFile;

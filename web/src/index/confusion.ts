@@ -2,13 +2,15 @@
 import type { IndexDocument } from '../data/index_document';
 import { h, svg } from '../ui/dom';
 
-const CELL = 40, LEFT = 86, TOP = 78;
+/** Of names set aslant, by the letter. */
+const CELL = 40, LEFT = 90, ASLANT = 5;
 
 /** Truth by row, answer by column; shares of the row as tints, counts as figures. */
 export function confusionFigure({ classes, answers = classes, counts }: NonNullable<IndexDocument['confusion']>): HTMLElement {
   const columns = counts[0]?.length ?? answers.length;
   const names = Array.from({ length: columns }, (_unused, i) => answers[i] ?? classes[i] ?? 'none');
-  const width = LEFT + CELL * columns + 12, height = TOP + CELL * counts.length + 12;
+  const reach = ASLANT * Math.max(...names.map((name) => name.length)), TOP = 26 + reach;
+  const width = LEFT + CELL * columns + Math.max(12, reach - 10), height = TOP + CELL * counts.length + 12;
   const right = counts.reduce((sum, row, i) => sum + (row[i] ?? 0), 0), all = counts.flat().reduce((sum, n) => sum + n, 0);
   const chart = svg(
     'svg', { viewBox: `0 0 ${width} ${height}`, class: 'chart', style: `max-width:${width * 1.25}px`, role: 'img', 'aria-label': `Confusion matrix: ${right} of ${all} on the diagonal. ${counts.map((row, i) => `${classes[i]}: ${row.map((n, k) => (n > 0 ? `${n} as ${names[k]}` : '')).filter(Boolean).join(', ') || 'none'}`).join('; ')}` },

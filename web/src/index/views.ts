@@ -25,7 +25,7 @@ const TURN_DEG = 8, ZOOM = 1.15;
 export class LinkedViews {
   readonly element: HTMLElement;
   private grid = h('div', { class: 'views' });
-  private legend = h('div', { class: 'chips', role: 'group', 'aria-label': 'Features' });
+  private legend = h('div', { class: 'chips views-legend', role: 'group', 'aria-label': 'Features' });
   private views: View[] = [];
   private store = new Store({ ...initialState(), labels: false });
   private linked = true;

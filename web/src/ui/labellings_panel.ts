@@ -3,7 +3,6 @@ import { figure } from '../data/numbers';
 import type { Alternative } from '../data/scene';
 import type { Scene } from '../data/decoded';
 import type { Store } from '../state';
-import { bestCandidate } from '../view/compose';
 import { probabilityBar } from './bars';
 import { h } from './dom';
 
@@ -12,7 +11,7 @@ export function differences(scene: Scene, alternative: Alternative): string {
   const texts = scene.features.flatMap((named) => {
     const rank = alternative.candidates?.[named.name];
     if (rank === undefined) return [];
-    const best = named.feature.present ? (bestCandidate(scene, named)?.rank ?? null) : 0;
+    const best = named.feature.present ? (named.candidate?.rank ?? null) : 0;
     if (rank === best) return [];
     return [rank === 0 ? `${named.name} missing` : `${named.name}: candidate ${rank}`];
   });

@@ -8,7 +8,7 @@ import type { State } from '../state';
 import { colors } from '../ui/theme';
 import { dots, drawn, type Style } from './drawn';
 import type { Label } from './labels';
-import { chosenFeatures, css, mixed, paint, ranks, rgb, surfaceOf } from './paint';
+import { candidatesOf, chosenFeatures, css, mixed, paint, rgb, surfaceOf } from './paint';
 import type { Viewer } from './viewer';
 
 export interface Shown {
@@ -27,12 +27,6 @@ export function nearestCandidate(scene: Scene, { name, feature }: NamedFeature):
   return scene.candidates(name).find((each) => equal(each.parameters, parameters)) ?? null;
 }
 
-/** The candidate that the best labelling took, as far as it is written. */
-export function bestCandidate(scene: Scene, { name, feature }: NamedFeature): Candidate | null {
-  if (!feature.present) return null;
-  return scene.candidates(name).find((each) => equal(each.parameters, feature.parameters)) ?? null;
-}
-
 const SHAPE_COLORS: Record<string, string> = { circle: '#d55e00', plane: '#0072b2', 'line-group': '#e69f00', sphere: '#cc79a7', cylinder: '#009e73' };
 
 /** The candidates of all features, each fit once. */
@@ -48,9 +42,9 @@ export function distinctShapes(scene: Scene): { candidate: Candidate; color: str
 
 /** The shapes of a labelling. */
 export function labelled(scene: Scene, labelling: number): Shown[] {
-  const ranked = ranks(scene, labelling);
+  const candidates = candidatesOf(scene, labelling);
   return scene.features.flatMap((feature) => {
-    const drawing = ranked ? scene.candidate(feature.name, ranked[feature.name] ?? 0)?.drawing : feature.drawing;
+    const drawing = labelling === 0 ? feature.drawing : candidates.get(feature.name)?.drawing;
     return drawing ? [{ feature, drawing, doubtful: false }] : [];
   });
 }

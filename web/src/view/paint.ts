@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The colour of each triangle in each stage.
 import type { Scene, SurfaceData } from '../data/decoded';
+import type { Candidate } from '../data/scene';
 import type { State } from '../state';
 
 export type Rgb = [number, number, number];
@@ -35,15 +36,23 @@ class Paint {
   }
 }
 
-/** Of a labelling beside the best: the candidate of each feature, by rank; 0 where it is missing. */
-export function ranks(scene: Scene, labelling: number): Record<string, number> | null {
-  return labelling === 0 ? null : (scene.result.alternatives[labelling - 1]?.candidates ?? {});
+/** The candidates of a labelling, by feature; 0 is the best, as far as it is written. */
+export function candidatesOf(scene: Scene, labelling: number): Map<string, Candidate> {
+  const ranks = labelling === 0 ? null : (scene.result.alternatives[labelling - 1]?.candidates ?? {});
+  const pairs = scene.features.map(({ name, candidate }) => [name, ranks ? scene.candidate(name, ranks[name] ?? 0) : candidate] as const);
+  return new Map(pairs.filter((pair): pair is readonly [string, Candidate] => pair[1] !== null));
+}
+
+/** Whether filters made the mesh so much finer that regions are better seen on what they left than on faces of the file. */
+function isRefined(scene: Scene): boolean {
+  const written = scene.features.every(({ feature, candidate }) => !feature.present || candidate !== null);
+  return written && scene.analysed.triangles.length > 1.5 * scene.input.triangles.length;
 }
 
 /** Which surface a stage shows. */
 export function surfaceOf(scene: Scene, state: State): SurfaceData {
-  const analysed = state.stage === 'sets' || state.stage === 'constructed' || state.stage === 'mesh' || (state.stage === 'found' && state.labelling > 0);
-  return analysed ? scene.analysed : scene.input;
+  if (state.stage === 'found') return state.labelling > 0 || isRefined(scene) ? scene.analysed : scene.input;
+  return state.stage === 'marks' ? scene.input : scene.analysed;
 }
 
 /** \param base  of the bare surface */
@@ -66,12 +75,9 @@ export function paint(scene: Scene, state: State, base: Rgb): Uint8Array {
       const type = scene.document.working_sets?.[index]?.type ?? '';
       canvas.set(scene.set(index), mixed(base, rgb(scene.setColors.get(type) ?? '#888888'), 0.72));
     }
-  } else if (state.stage === 'found' && state.labelling > 0) {
-    for (const [name, rank] of Object.entries(ranks(scene, state.labelling) ?? {})) {
-      const feature = scene.feature(name), candidate = scene.candidate(name, rank);
-      if (!feature || !candidate) continue;
-      for (const index of candidate.working_sets) canvas.set(scene.set(index), mixed(base, rgb(feature.color), strength(name)));
-    }
+  } else if (state.stage === 'found' && (surface !== scene.input || state.labelling > 0)) {
+    for (const [name, { working_sets }] of candidatesOf(scene, state.labelling))
+      for (const index of working_sets) canvas.set(scene.set(index), mixed(base, rgb(scene.feature(name)!.color), strength(name)));
   } else if (surface === scene.input && (state.stage === 'found' || chosen.size > 0)) {
     const soft = state.stage === 'found' ? 1 : 0.35;
     const colors = scene.features.map(({ name, color }) =>

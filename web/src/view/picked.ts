@@ -5,7 +5,7 @@ import type { Point } from '../data/scene';
 import type { Scene } from '../data/decoded';
 import type { Marking } from '../data/marking';
 import type { State } from '../state';
-import { surfaceOf } from './paint';
+import { candidatesOf, surfaceOf } from './paint';
 import type { Picked } from './viewer';
 
 /** Written sets that hold a vertex, the smallest first. */
@@ -26,11 +26,8 @@ function featureAt(scene: Scene, state: State, picked: Picked): string | null {
     return label > 0 ? (scene.features[label - 1]?.name ?? null) : null;
   }
   const sets = new Set(setsAt(scene, picked.vertex));
-  for (const { name, feature } of scene.features) {
-    const rank = state.labelling > 0 ? scene.result.alternatives[state.labelling - 1]?.candidates?.[name] : undefined;
-    const candidate = rank ? scene.candidate(name, rank) : feature.present ? scene.candidates(name).find((each) => JSON.stringify(each.parameters) === JSON.stringify(feature.parameters)) : null;
-    if (candidate?.working_sets.some((set) => sets.has(set))) return name;
-  }
+  for (const [name, { working_sets }] of candidatesOf(scene, state.stage === 'found' ? state.labelling : 0))
+    if (working_sets.some((set) => sets.has(set))) return name;
   return null;
 }
 
