@@ -212,7 +212,7 @@ test('all of it by keyboard', async () => {
   assert.ok(Math.hypot(moved[0] - before[0], moved[1] - before[1]) > 10, 'the view turned');
   await page.keyboard.press('r');
   const back = await page.evaluate(() => window.toposcope!.project([10, 0, 73]));
-  assert.ok(Math.hypot(back[0] - before[0], back[1] - before[1]) < 0.5, 'and is as it was');
+  assert.ok(Math.hypot(back[0] - before[0], back[1] - before[1]) < 0.5, `and is as it was: ${before} ${moved} ${back}`);
   await page.keyboard.press('Enter');
   await page.waitForSelector('[data-stage="marks"] >> text=1 point');
   await page.keyboard.press('Delete');

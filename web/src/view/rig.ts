@@ -48,7 +48,7 @@ export class Rig {
     this.update();
   }
 
-  /** Sets near and far about the object and the frustum; to be called before each frame. */
+  /** Sets near and far about the object, the frustum and the camera's matrices; to be called before it is used. */
   update(): void {
     const { radius, centre } = this.frame;
     const distance = this.camera.position.distanceTo(centre);
@@ -60,6 +60,7 @@ export class Rig {
     });
     this.perspective.updateProjectionMatrix();
     this.orthographic.updateProjectionMatrix();
+    this.camera.updateMatrixWorld();
   }
 
   reset(animated: boolean): void {

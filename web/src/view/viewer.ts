@@ -146,6 +146,7 @@ export class Viewer {
   at(x: number, y: number): Picked | null {
     const { clientWidth: width, clientHeight: height } = this.element;
     if (!this.shown) return null;
+    this.rig.update();
     const ray = new Raycaster();
     ray.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.rig.camera);
     const { positions, triangles } = this.shown.data;
@@ -155,6 +156,7 @@ export class Viewer {
 
   project(point: [number, number, number]): [number, number] {
     const { clientWidth: width, clientHeight: height } = this.element;
+    this.rig.update();
     const p = new Vector3(...point).project(this.rig.camera);
     return [((p.x + 1) / 2) * width, ((1 - p.y) / 2) * height];
   }
