@@ -26,7 +26,7 @@ export function written(template: string, document: unknown, name: string): stri
   const marker = '<script type="application/json" id="toposcope-data">null</script>';
   const page = readFileSync(template, 'utf8'), at = page.indexOf(marker);
   if (at < 0 || page.indexOf(marker, at + 1) >= 0) throw new Error(`${template}: holds the data's element not just once`);
-  const filled = marker.replace('null', () => JSON.stringify(document).replace(/<\//g, '<\\/'));
+  const filled = marker.replace('null', () => JSON.stringify(document).replace(/</g, '\\u003c'));
   mkdirSync(folder, { recursive: true });
   const path = join(folder, name);
   writeFileSync(path, page.slice(0, at) + filled + page.slice(at + marker.length));

@@ -14,6 +14,7 @@ import { nearestCorner, pick } from '@page/geometry/pick';
 import { chosenRows, compareCells } from '@page/index/table';
 import { wilson } from '@page/index/reliability';
 import { arrange, type Label } from '@page/view/labels';
+import { roundLength } from '@page/view/scale_bar';
 import { beaker, buffer, index, quantised } from './fixture';
 
 /** A cube of side 2 about the origin, faces outward. */
@@ -176,6 +177,11 @@ test('labels: none lies on another, none outside', () => {
     heights.forEach((y, i) => assert.ok(y > 0 && y < 300 && (i === 0 || y - heights[i - 1]! > 25), `${heights}`));
   }
   assert.ok(placed.every(({ at, side }) => (side < 0 ? at[0] - 60 >= 0 : at[0] + 60 <= 420)));
+});
+
+test('scale: round lengths', () => {
+  const near = (a: number, b: number): void => assert.ok(Math.abs(a - b) < 1e-12 * b, `${a} for ${b}`);
+  ([[130, 100], [99, 50], [5, 5], [0.049, 0.02], [1.99e6, 1e6]] as const).forEach(([most, length]) => near(roundLength(most), length));
 });
 
 test('tables: filter by words, sort by value, nothing last', () => {

@@ -18,6 +18,7 @@ import { stageDetail, stageNavigation, TITLES } from './ui/stages';
 import { colors, onTheme, reducedMotion, toggleTheme } from './ui/theme';
 import { compose, middle } from './view/compose';
 import { hoverText, pickCandidate, pickFeature, pickMark, pickSet } from './view/picked';
+import { ScaleBar } from './view/scale_bar';
 import { ownScreen } from './view/screen';
 import { Viewer, type Picked } from './view/viewer';
 
@@ -110,7 +111,9 @@ export class ScenePage {
     viewer.onhover = (picked, x, y) => this.hover(picked, x, y);
     viewer.element.addEventListener('focus', () => this.showCross());
     viewer.element.addEventListener('blur', () => this.showCross());
-    this.view.append(viewer.element, this.cross, this.tip, this.tools);
+    const scale = new ScaleBar(this.scene.document.unit ?? '');
+    viewer.ondraw = () => scale.update(viewer.rig.pixel);
+    this.view.append(viewer.element, scale.element, this.cross, this.tip, this.tools);
   }
 
   private changed(state: State, before: State): void {

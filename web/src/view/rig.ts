@@ -112,12 +112,18 @@ export class Rig {
   /** In parts of the window's height. */
   pan(right: number, up: number): void {
     const { camera, controls } = this;
-    const height = this.isOrthographic
-      ? (2 * this.fit() * TAN) / this.orthographic.zoom
-      : 2 * TAN * camera.position.distanceTo(controls.target);
+    const height = this.pixel * this.height;
     const move = new Vector3(right, up, 0).multiplyScalar(height).applyQuaternion(camera.quaternion);
     controls.target.add(move);
     this.place(camera.position.clone().add(move), controls.target);
+  }
+
+  /** Length of a pixel at the depth of the object's middle. */
+  get pixel(): number {
+    const { camera, frame } = this;
+    if (this.isOrthographic) return (2 * this.fit() * TAN) / (this.orthographic.zoom * this.height);
+    const ahead = new Vector3(0, 0, -1).applyQuaternion(camera.quaternion);
+    return (2 * TAN * Math.max(1e-6 * frame.radius, frame.centre.clone().sub(camera.position).dot(ahead))) / this.height;
   }
 
   /** Looks at the object as another rig looks at its own. */

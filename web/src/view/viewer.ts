@@ -30,6 +30,7 @@ export class Viewer {
   onhover: (picked: Picked | null, x: number, y: number) => void = () => undefined;
   onlabel: (name: string) => void = () => undefined;
   onmove: () => void = () => undefined;
+  ondraw: () => void = () => undefined;
   /** Frames drawn so far. */
   frames = 0;
   private scene = new Scene();
@@ -102,6 +103,7 @@ export class Viewer {
     this.screen.draw(this.scene, this.rig.camera, width, height);
     this.labels.update(this.rig.camera, width, height, this.silhouette(width));
     ++this.frames;
+    this.ondraw();
     // Hollows darken when the page has nothing else to do.
     if (!this.shading && this.shown && !this.shown.shaded) {
       this.shading = true;
