@@ -4,7 +4,7 @@ import { test } from 'node:test';
 import { floats, indices } from '@page/data/buffers';
 import { directions } from '@page/data/directions';
 import { Marking } from '@page/data/marking';
-import { count, figure, milliseconds, probability } from '@page/data/numbers';
+import { count, figure, milliseconds, probability, vector } from '@page/data/numbers';
 import type { ModelFile, Point } from '@page/data/scene';
 import { marksOfTruth, parseTruth, textOfTruth, truthOf, type Marks, type TruthFile } from '@page/data/truth';
 import { DepthImage } from '@page/geometry/depth_image';
@@ -48,6 +48,7 @@ test('buffers: errors name the buffer', () => {
 test('figures read as people write them', () => {
   assert.deepEqual([figure(38.94529), figure(-0.5), figure(2.03e-5, 3), figure(0), figure(null), figure(1e7)], ['38.95', '−0.5', '2.03e−5', '0', '–', '1e7']);
   assert.deepEqual([probability(1), probability(0.99999), probability(0.8988), probability(1e-9), probability(0), probability(null)], ['1', '>0.999', '0.899', '<0.001', '0', '–']);
+  assert.deepEqual([vector([-0.0015, 0.06, 94.881]), vector([-6.7e-6, 1e-5, 0.9999999]), vector([0, 0, 0])], ['(0, 0.06, 94.88)', '(0, 0, 1)', '(0, 0, 0)']);
   assert.deepEqual([count(1234567), count(12), milliseconds(3.14159), milliseconds(2500)], ['1,234,567', '12', '3.14 ms', '2.5 s']);
 });
 

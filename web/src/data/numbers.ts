@@ -11,6 +11,13 @@ export function figure(value: number | null | undefined, digits = 4): string {
   return text.replace('-', '−');
 }
 
+/** Coordinates, all to the same decimal: four significant digits of the largest. */
+export function vector(values: number[]): string {
+  const largest = Math.max(...values.map(Math.abs));
+  const decimals = largest > 0 ? Math.min(20, Math.max(0, 3 - Math.floor(Math.log10(largest)))) : 0;
+  return `(${values.map((x) => figure(Number(x.toFixed(decimals)))).join(', ')})`;
+}
+
 /** Probabilities never read 1 or 0 unless they are. */
 export function probability(value: number | null | undefined): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';

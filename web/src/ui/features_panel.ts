@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import { nearestCandidate } from '../view/compose';
-import { figure, plural, probability } from '../data/numbers';
+import { figure, plural, probability, vector } from '../data/numbers';
 import type { FoundFeature, MissingFeature, Parameters } from '../data/scene';
 import type { NamedFeature, Scene } from '../data/decoded';
 import type { Store } from '../state';
@@ -14,10 +14,6 @@ function unitOfMeasure(name: string, unit: string): string {
   if (/_deg$/.test(name)) return '°';
   if (!unit || /coverage|count|ratio/.test(name)) return '';
   return name === 'area' ? ` ${unit}²` : ` ${unit}`;
-}
-
-function vector(value: number[]): string {
-  return `(${value.map((x) => figure(x)).join(', ')})`;
 }
 
 function parameterRows(parameters: Parameters): [string, string][] {

@@ -21,7 +21,7 @@ function summary(scene: Scene, marking: Marking, stage: Stage): string {
     case 'sets':
       return `${plural(result.working_sets, 'set')}, ${plural(scene.setTypes.length, 'type')}`;
     case 'constructed':
-      return `${count(Object.values(result.candidates).reduce((sum, each) => sum + (each['kept'] ?? 0), 0) || (document.candidates?.length ?? 0))} shapes fitted`;
+      return `${count(Object.values(result.candidates).reduce((sum, each) => sum + (each['kept'] ?? 0), 0) || (document.candidates?.length ?? 0))} candidates`;
     case 'found':
       return `${scene.features.filter(({ feature }) => feature.present).length} of ${scene.features.length}`;
     case 'marks':
