@@ -72,7 +72,7 @@ function setTools(scene: Scene, store: Store): HTMLElement[] {
   const { state } = store, sets = scene.document.working_sets ?? [];
   const current = state.set === null ? null : sets[state.set];
   const nodes: HTMLElement[] = [
-    h('p', {}, 'Connected regions of one kind of curvature, from the bottom up, at every scale: the material that shapes are fitted to. Sets overlap; of two types the one that covers less is shown.'),
+    h('p', {}, 'Connected regions of one kind of curvature, from the bottom up, at every scale: the material that shapes are fitted to. Sets overlap; a place has the colour of the smallest set that holds it.'),
     h('div', { class: 'chips', role: 'group', 'aria-label': 'Types of working sets' }, scene.setTypes.map((type) =>
       h(
         'button', {

@@ -34,6 +34,18 @@ class Paint {
     for (let t = 0; t < triangles.length; t += 3)
       if (inside[triangles[t]!] && inside[triangles[t + 1]!] && inside[triangles[t + 2]!]) this.triangle(t / 3, color);
   }
+
+  /** Triangles of which two vertices at least are of one part. */
+  partition(parts: { vertices: Uint32Array; color: Rgb }[]): void {
+    const { triangles, positions } = this.surface;
+    const partOf = new Uint8Array(positions.length / 3);
+    parts.forEach(({ vertices }, i) => vertices.forEach((v) => (partOf[v] = i + 1)));
+    for (let t = 0; t < triangles.length; t += 3) {
+      const a = partOf[triangles[t]!]!, b = partOf[triangles[t + 1]!]!, c = partOf[triangles[t + 2]!]!;
+      const part = a === b || a === c ? a : b === c ? b : 0;
+      if (part > 0) this.triangle(t / 3, parts[part - 1]!.color);
+    }
+  }
 }
 
 /** The candidates of a labelling, by feature; 0 is the best, as far as it is written. */
@@ -63,12 +75,10 @@ export function paint(scene: Scene, state: State, base: Rgb): Uint8Array {
   if (state.stage === 'sets') {
     const set = state.set === null ? null : scene.document.working_sets?.[state.set];
     if (set) canvas.set(scene.set(state.set!), rgb(scene.setColors.get(set.type)!));
-    else {
-      // Sets of different types overlap; the type that covers less lies on top.
-      const unions = scene.setTypes.filter((type) => !state.hiddenTypes.has(type)).map((type) => ({ type, vertices: scene.union(type) }));
-      for (const { type, vertices } of unions.sort((a, b) => b.vertices.length - a.vertices.length))
-        canvas.set(vertices, mixed(base, rgb(scene.setColors.get(type)!), 0.8));
-    }
+    else canvas.partition(scene.setTypes.map((type) => ({
+        vertices: state.hiddenTypes.has(type) ? new Uint32Array() : scene.union(type),
+        color: mixed(base, rgb(scene.setColors.get(type)!), 0.8),
+      })));
   } else if (state.stage === 'constructed') {
     const candidate = state.candidateOf === null ? null : scene.candidate(state.candidateOf, state.rank);
     for (const index of candidate?.working_sets ?? []) {
