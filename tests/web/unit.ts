@@ -8,6 +8,7 @@ import { count, figure, milliseconds, probability, vector } from '@page/data/num
 import type { ModelFile, Point } from '@page/data/scene';
 import { marksOfTruth, parseTruth, textOfTruth, truthOf, type Marks, type TruthFile } from '@page/data/truth';
 import { DepthImage } from '@page/geometry/depth_image';
+import { facing } from '@page/geometry/facing';
 import { creasedCorners } from '@page/geometry/normals';
 import { Occlusion } from '@page/geometry/occlusion';
 import { nearestCorner, pick } from '@page/geometry/pick';
@@ -155,6 +156,14 @@ test('depth image: what lies behind is not seen', () => {
   assert.equal(image.seesPoint(Float32Array.from([0, 0, 1]), 0), true);
   assert.equal(image.seesPoint(Float32Array.from([0.2, 0.1, -1]), 0), false);
   assert.equal(image.seesPoint(Float32Array.from([1.5, 0, -1]), 0), true, 'beside the cube');
+});
+
+test('facing: a shape on the underside is seen from below, one that is seen already is not turned away from', () => {
+  const image = new DepthImage(CUBE.positions, CUBE.triangles, [0, 0, 0], Math.sqrt(3), 96);
+  const below = facing(image, Float32Array.from([-0.8, -0.8, -1, 0.8, -0.8, -1, 0.8, 0.8, -1, -0.8, 0.8, -1]), [0.6, 0, 0.8]);
+  assert.ok(below[2] < -0.5, `${below}`);
+  const above = facing(image, Float32Array.from([-0.8, -0.8, 1, 0.8, -0.8, 1, 0.8, 0.8, 1, -0.8, 0.8, 1]), [0.2, 0, 0.98]);
+  assert.ok(above[2] > 0.9, `${above}`);
 });
 
 test('occlusion: open outside, dark inside', () => {

@@ -16,7 +16,7 @@ import { relationsPanel } from './ui/relations_panel';
 import { runPanels } from './ui/run_panel';
 import { stageDetail, stageNavigation, TITLES } from './ui/stages';
 import { colors, onTheme, reducedMotion, toggleTheme } from './ui/theme';
-import { compose, middle } from './view/compose';
+import { anchorsOf, compose, labelled, middle } from './view/compose';
 import { hoverText, pickCandidate, pickFeature, pickMark, pickSet } from './view/picked';
 import { ScaleBar } from './view/scale_bar';
 import { ownScreen } from './view/screen';
@@ -50,6 +50,7 @@ export class ScenePage {
   private view = h('div', { class: 'view' });
   private tools = h('div', { class: 'tools floating', role: 'toolbar', 'aria-label': 'View' });
   private tip = h('div', { class: 'tip', 'aria-hidden': 'true', hidden: true });
+  private ring = h('div', { class: 'ring', 'aria-hidden': 'true', hidden: true });
   private cross = h('div', { class: 'cross', 'aria-hidden': 'true', hidden: true });
   private panel = h('aside', { class: 'panels', 'aria-label': 'Result' });
 
@@ -113,7 +114,7 @@ export class ScenePage {
     viewer.element.addEventListener('blur', () => this.showCross());
     const scale = new ScaleBar(this.scene.document.unit ?? '');
     viewer.ondraw = () => scale.update(viewer.rig.pixel);
-    this.view.append(viewer.element, scale.element, this.cross, this.tip, this.tools);
+    this.view.append(viewer.element, scale.element, this.ring, this.cross, this.tip, this.tools);
   }
 
   private changed(state: State, before: State): void {
@@ -130,7 +131,7 @@ export class ScenePage {
     const { scene, store, marking, viewer } = this;
     refresh(this.navigation, stageNavigation(scene, store, marking));
     refresh(this.detail, ...stageDetail(scene, store, marking));
-    const panels = [featuresPanel(scene, store), relationsPanel(scene, store), labellingsPanel(scene, store), ...runPanels(scene)];
+    const panels = [featuresPanel(scene, store, (name) => this.turnTo(name)), relationsPanel(scene, store), labellingsPanel(scene, store), ...runPanels(scene)];
     refresh(this.panel, ...panels.filter((panel): panel is HTMLElement => panel !== null));
     if (!viewer) return;
     compose(viewer, scene, store.state, marking);
@@ -165,6 +166,13 @@ export class ScenePage {
   }
 
   private hover(picked: Picked | null, x: number, y: number): void {
+    const { stage, markOf } = this.store.state;
+    this.ring.hidden = !picked || stage !== 'marks' || markOf === null;
+    if (picked && !this.ring.hidden) {
+      const p = this.scene.input.positions, v = 3 * picked.vertex;
+      const at = this.viewer!.project([p[v]!, p[v + 1]!, p[v + 2]!]);
+      this.ring.style.transform = `translate(${at[0]}px, ${at[1]}px)`;
+    }
     const text = picked && hoverText(this.scene, this.store.state, picked);
     this.tip.hidden = !text;
     if (!text) return;
@@ -175,6 +183,11 @@ export class ScenePage {
   /** Where Enter picks, for those without a mouse. */
   private showCross(): void {
     this.cross.hidden = !this.viewer?.element.matches(':focus-visible');
+  }
+
+  private turnTo(name: string): void {
+    const shown = labelled(this.scene, this.store.state.labelling).find(({ feature }) => feature.name === name);
+    if (shown) this.viewer?.turnTo(anchorsOf(shown.drawing), !reducedMotion());
   }
 
   private saveResult(): void {
@@ -221,6 +234,7 @@ export class ScenePage {
       { keys: 'u U', shown: 'U', text: 'undo a mark', run: () => this.marking.undo() },
       { keys: 'Delete Backspace', shown: 'Delete', text: 'delete the last mark of the chosen feature', run: () => store.state.markOf && this.marking.removeLast(store.state.markOf, store.state.group) },
       { keys: 'r R 0', shown: 'R', text: 'reset the view', run: () => rig()?.reset(!reducedMotion()) },
+      { keys: 'f F', shown: 'F', text: 'turn to the selected feature', run: () => store.state.feature && this.turnTo(store.state.feature) },
       { keys: 'o O', shown: 'O', text: 'orthographic or perspective', run: () => store.set({ orthographic: !store.state.orthographic }) },
       { keys: 'e E', shown: 'E', text: 'edges of the triangles', run: () => store.set({ edges: !(store.state.edges ?? store.state.stage === 'mesh') }) },
       { keys: 'l L', shown: 'L', text: 'names of the features', run: () => store.set({ labels: !store.state.labels }) },

@@ -7,6 +7,9 @@ import type { Store } from '../state';
 import { probabilityBar, residualText } from './bars';
 import { h, swatch } from './dom';
 
+/** Turns the view to a feature. */
+type TurnTo = (name: string) => void;
+
 const words = (name: string): string => name.replace(/_/g, ' ');
 
 /** Lengths and areas bear the mesh's unit; angles, shares and counts do not. */
@@ -36,7 +39,7 @@ function measureRows(feature: FoundFeature, unit: string): [string, string][] {
   });
 }
 
-function foundDetail(scene: Scene, store: Store, { name }: NamedFeature, feature: FoundFeature): HTMLElement {
+function foundDetail(scene: Scene, store: Store, { name }: NamedFeature, feature: FoundFeature, turnTo: TurnTo): HTMLElement {
   const unit = scene.document.unit ?? '';
   const direction = feature.uncertainty['direction_deg'];
   return h(
@@ -49,7 +52,7 @@ function foundDetail(scene: Scene, store: Store, { name }: NamedFeature, feature
       ['evidence', `${figure(feature.evidence, 3)} nats over missing`],
       ['surface', plural(feature.faces.length, 'face')],
     ]),
-    candidatesButton(scene, store, name),
+    h('div', { class: 'buttons' }, h('button', { class: 'link', 'data-key': `turn:${name}`, onclick: () => turnTo(name) }, 'Turn to it (F)'), candidatesButton(scene, store, name)),
   );
 }
 
@@ -81,7 +84,7 @@ function shortMeasure(feature: FoundFeature): string {
   return name ? `${feature.shape} · ${words(name)} ${figure(value)}` : feature.shape;
 }
 
-function item(scene: Scene, store: Store, named: NamedFeature): HTMLElement {
+function item(scene: Scene, store: Store, named: NamedFeature, turnTo: TurnTo): HTMLElement {
   const { name, color, feature } = named, { state } = store;
   const selected = state.feature === name;
   const inRelation = state.relation !== null && scene.result.relations.some((each) => each.name === state.relation && each.features.includes(name));
@@ -93,17 +96,17 @@ function item(scene: Scene, store: Store, named: NamedFeature): HTMLElement {
       ? probabilityBar(feature.probability, color)
       : h('span', { class: 'absent' }, 'missing', h('small', {}, feature.probability_missing === null ? '' : `probability ${probability(feature.probability_missing)}`)),
   );
-  const detail = selected ? (feature.present ? foundDetail(scene, store, named, feature) : missingDetail(scene, store, named, feature)) : null;
+  const detail = selected ? (feature.present ? foundDetail(scene, store, named, feature, turnTo) : missingDetail(scene, store, named, feature)) : null;
   return h('li', { class: `item${selected ? ' selected' : ''}${inRelation ? ' related' : ''}${feature.present ? '' : ' missing'}` }, button, detail);
 }
 
-export function featuresPanel(scene: Scene, store: Store): HTMLElement {
+export function featuresPanel(scene: Scene, store: Store, turnTo: TurnTo): HTMLElement {
   const found = scene.features.filter(({ feature }) => feature.present).length;
   const { probabilities } = scene.result;
   return h(
     'section', { class: 'panel', 'aria-labelledby': 'features-title' },
     h('h2', { id: 'features-title' }, 'Features', h('small', {}, `${found} of ${scene.features.length} found${probabilities ? '' : ', no probabilities'}`)),
-    h('ul', { class: 'list' }, scene.features.map((feature) => item(scene, store, feature))),
+    h('ul', { class: 'list' }, scene.features.map((feature) => item(scene, store, feature, turnTo))),
     h('p', { class: 'note' }, `Lengths in the mesh's own unit${scene.document.unit ? ` (${scene.document.unit})` : ''}; ± is one standard deviation.`),
   );
 }

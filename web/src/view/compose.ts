@@ -49,7 +49,8 @@ export function labelled(scene: Scene, labelling: number): Shown[] {
   });
 }
 
-function anchorsOf(drawing: Drawing): Float32Array {
+/** Coordinates of a drawing's lines, or of its patches where it has none. */
+export function anchorsOf(drawing: Drawing): Float32Array {
   const buffers = drawing.lines?.length ? drawing.lines : (drawing.patches ?? []).map((each) => each.positions);
   const points: number[] = [];
   for (const buffer of buffers) for (const x of floats(buffer, 'drawing')) points.push(x);

@@ -74,6 +74,24 @@ export class Rig {
     }
   }
 
+  /** From the object to the viewer, unit. */
+  get side(): Vector3 {
+    return this.camera.position.clone().sub(this.controls.target).normalize();
+  }
+
+  /** Looks at the object's middle from a side, from as far as at present. */
+  lookFrom(side: Vector3, animated: boolean): void {
+    // Straight from above or below, what is up would hang on roundings.
+    const limit = 0.03, tilt = side.angleTo(this.frame.up);
+    const held = side.clone();
+    if (tilt < limit || tilt > Math.PI - limit)
+      held.addScaledVector(this.frame.towards.clone().addScaledVector(this.frame.up, -this.frame.towards.dot(this.frame.up)).normalize(), limit);
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    const position = this.frame.centre.clone().addScaledVector(held.normalize(), distance);
+    if (animated) this.glide(position);
+    else this.place(position);
+  }
+
   setOrthographic(on: boolean): void {
     if (on === this.isOrthographic) return;
     const distance = this.camera.position.distanceTo(this.controls.target);

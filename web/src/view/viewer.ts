@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import { Group, Raycaster, Scene, Vector2, Vector3 } from 'three';
 import type { SurfaceData } from '../data/decoded';
+import { DepthImage } from '../geometry/depth_image';
+import { facing } from '../geometry/facing';
 import type { Frame } from '../geometry/frame';
 import { nearestCorner, pick, type Hit } from '../geometry/pick';
 import { h } from '../ui/dom';
@@ -142,6 +144,14 @@ export class Viewer {
       context.fill();
     }
     return canvas;
+  }
+
+  /** Turns to where a shape is best seen. */
+  turnTo(points: Float32Array, animated: boolean): void {
+    if (!this.shown || points.length < 6) return;
+    const { positions, triangles } = this.shown.data, { centre, radius } = this.frame;
+    const image = new DepthImage(positions, triangles, centre.toArray(), radius, 96);
+    this.rig.lookFrom(new Vector3(...facing(image, points, this.rig.side.toArray())), animated);
   }
 
   /** What lies under a point of the window, in pixels from its top left. */
