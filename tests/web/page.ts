@@ -40,17 +40,24 @@ async function facing(page: Page): Promise<number> {
 
 const around = (r: number, z: number, a: number): Point => [r * Math.cos(a), r * Math.sin(a), z];
 
-async function colorAt(page: Page, point: Point): Promise<Rgb> {
-  const [x, y] = await project(page, point);
-  return (await pixels(page)).at(x, y);
+interface Look {
+  color(point: Point): Promise<Rgb>;
+  /** The strongest likeness to a colour within a few pixels of a point: lines are thin. */
+  nearest(point: Point, color: Rgb): Promise<number>;
 }
 
-/** The strongest likeness to a colour within a few pixels of a point: lines are thin. */
-async function nearestTo(page: Page, point: Point, color: Rgb): Promise<number> {
-  const [x, y] = await project(page, point), image = await pixels(page);
-  let best = Infinity;
-  for (let dx = -3; dx <= 3; ++dx) for (let dy = -3; dy <= 3; ++dy) best = Math.min(best, distance(image.at(x + dx, y + dy), color));
-  return best;
+/** The view as it is now. */
+async function look(page: Page): Promise<Look> {
+  const image = await pixels(page);
+  return {
+    color: async (point) => image.at(...(await project(page, point))),
+    nearest: async (point, color) => {
+      const [x, y] = await project(page, point);
+      let best = Infinity;
+      for (let dx = -3; dx <= 3; ++dx) for (let dy = -3; dy <= 3; ++dy) best = Math.min(best, distance(image.at(x + dx, y + dy), color));
+      return best;
+    },
+  };
 }
 
 const toStage = (page: Page, stage: Stage): Promise<void> => page.click(`[data-stage="${stage}"]`);
@@ -66,11 +73,10 @@ test('every stage draws', async () => {
   await page.keyboard.press('l');
   const a = await facing(page), side = around(34, 30, a);
   const box = (await page.locator('.viewer').boundingBox())!;
-  const ground = async (): Promise<Rgb> => (await pixels(page)).at(box.x + 4, box.y + box.height / 2);
 
   await toStage(page, 'mesh');
-  assert.ok(distance(await colorAt(page, side), await ground()) > 20, 'the surface stands out from the ground');
   const withEdges = await pixels(page), [x, y] = await project(page, side);
+  assert.ok(distance(withEdges.at(x, y), withEdges.at(box.x + 4, box.y + box.height / 2)) > 20, 'the surface stands out from the ground');
   await page.keyboard.press('e');
   const without = await pixels(page);
   let changed = 0;
@@ -80,36 +86,38 @@ test('every stage draws', async () => {
 
   await toStage(page, 'sets');
   const lip = around(38, 71, a);
-  assert.ok(likeHue(await colorAt(page, lip), hex(SET_COLORS.convex)), 'the convex set in its colour');
-  assert.ok(hue(await colorAt(page, side)).saturation < 0.15, 'no set, no colour');
+  let now = await look(page);
+  assert.ok(likeHue(await now.color(lip), hex(SET_COLORS.convex)), 'the convex set in its colour');
+  assert.ok(hue(await now.color(side)).saturation < 0.15, 'no set, no colour');
   await page.click('[data-key="type:convex"]');
-  assert.ok(hue(await colorAt(page, lip)).saturation < 0.15, 'a type that is not wanted');
-  await page.keyboard.press(']');
-  await page.keyboard.press(']');
-  await page.keyboard.press(']');
-  assert.ok(likeHue(await colorAt(page, around(35.5, 45, a)), hex(SET_COLORS.convex)), 'the third set alone');
+  assert.ok(hue(await (await look(page)).color(lip)).saturation < 0.15, 'a type that is not wanted');
+  for (let i = 0; i < 3; ++i) await page.keyboard.press(']');
+  assert.ok(likeHue(await (await look(page)).color(around(35.5, 45, a)), hex(SET_COLORS.convex)), 'the third set alone');
 
   await toStage(page, 'constructed');
   await page.click('[data-key="candidates:rim"]');
   await page.keyboard.press(']');
   assert.equal(await page.evaluate(() => window.toposcope!.state().rank), 2);
-  assert.ok((await nearestTo(page, around(35, 40, a), hex(COLORS.rim))) < 30, 'the second candidate of the rim');
-  assert.ok(likeHue(await colorAt(page, around(35.5, 45, a)), hex(SET_COLORS.convex)), 'and its working set');
+  now = await look(page);
+  assert.ok((await now.nearest(around(35, 40, a), hex(COLORS.rim))) < 30, 'the second candidate of the rim');
+  assert.ok(likeHue(await now.color(around(35.5, 45, a)), hex(SET_COLORS.convex)), 'and its working set');
 
   await toStage(page, 'found');
   const front = around(RIM.radius, 73, a);
-  assert.ok((await nearestTo(page, front, hex(COLORS.rim))) < 30, 'the rim as a circle');
-  assert.ok(likeHue(await colorAt(page, lip), hex(COLORS.rim), 30), 'and its faces');
+  now = await look(page);
+  assert.ok((await now.nearest(front, hex(COLORS.rim))) < 30, 'the rim as a circle');
+  assert.ok(likeHue(await now.color(lip), hex(COLORS.rim), 30), 'and its faces');
   await page.click('[data-key="labelling:1"]');
-  assert.ok((await nearestTo(page, around(35, 40, a), hex(COLORS.rim))) < 30, 'an alternative');
-  assert.ok((await nearestTo(page, front, hex(COLORS.rim))) > 60);
+  now = await look(page);
+  assert.ok((await now.nearest(around(35, 40, a), hex(COLORS.rim))) < 30, 'an alternative');
+  assert.ok((await now.nearest(front, hex(COLORS.rim))) > 60);
 
   await toStage(page, 'marks');
   await page.click('[data-key="mark:rim"]');
-  await page.mouse.click(...(await project(page, side)));
-  const dots = await pixels(page), [mx, my] = await project(page, side);
+  await page.mouse.click(x, y);
+  const dots = await pixels(page);
   let dotted = 0;
-  for (let dx = -25; dx <= 25; ++dx) for (let dy = -25; dy <= 25; ++dy) dotted += distance(dots.at(mx + dx, my + dy), hex(COLORS.rim)) < 20 ? 1 : 0;
+  for (let dx = -25; dx <= 25; ++dx) for (let dy = -25; dy <= 25; ++dy) dotted += distance(dots.at(x + dx, y + dy), hex(COLORS.rim)) < 20 ? 1 : 0;
   assert.ok(dotted > 40, `the mark as a dot: ${dotted} pixels`);
   await closed(opened);
 });
@@ -125,9 +133,14 @@ test('picking a face, a row or a name selects everywhere', async () => {
   assert.equal(await page.textContent('.label.selected'), 'rim');
   await page.click('[data-key="feature:bottom"]');
   assert.equal(await page.evaluate(() => window.toposcope!.state().feature), 'bottom');
-  assert.ok(hue(await colorAt(page, lip)).saturation < 0.3, 'what is not selected grows pale');
+  assert.ok(hue(await (await look(page)).color(lip)).saturation < 0.3, 'what is not selected grows pale');
   await page.click('.label >> text=rim');
-  assert.ok(likeHue(await colorAt(page, lip), hex(COLORS.rim), 30));
+  assert.ok(likeHue(await (await look(page)).color(lip), hex(COLORS.rim), 30));
+  await page.click('[data-key="feature:bottom"]');
+  assert.ok(!likeHue(await (await look(page)).color([15, 0, 0]), hex(COLORS.bottom)), 'the side lies before the bottom');
+  await page.keyboard.press('f');
+  assert.ok(likeHue(await (await look(page)).color([15, 0, 0]), hex(COLORS.bottom)), 'turned to see the bottom');
+  await page.keyboard.press('r');
   await page.click('[data-key="relation:r1"]');
   assert.deepEqual((await pressed()).filter((key) => !key.startsWith('labelling')), ['relation:r1']);
   assert.equal(await page.locator('.panels .related').count(), 2, 'both features of the relation');
