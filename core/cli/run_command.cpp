@@ -11,6 +11,7 @@
 #include "problem/problem_io.h"
 #include "resources.h"
 #include "result/result.h"
+#include "scene/scene.h"
 #include "session.h"
 
 namespace toposcope::cli {
@@ -25,6 +26,18 @@ void save_problems(const fs::path& path, const Analysis& analysis, Context& cont
       file.replace_filename(path.stem().string() + "-" + each.name + path.extension().string());
     for (const std::string& note : write_problem(file, each.problem))
       context.log(LogLevel::info, file.string() + ": " + note);
+  }
+}
+
+/// What is known of the mesh, to show it. A file that cannot be read costs a warning, not the result.
+std::optional<Truth> truth_if_any(const fs::path& mesh, Context& context) {
+  const fs::path file = truth_beside(mesh);
+  if (file.empty()) return std::nullopt;
+  try {
+    return read_truth(file);
+  } catch (const UsageError& error) {
+    context.log(LogLevel::warning, std::string(error.what()) + "; its marks are not shown");
+    return std::nullopt;
   }
 }
 
@@ -57,6 +70,9 @@ int run(const RunOptions& options) {
       make_folder(folder, "--out");
       write_labels(folder / "labels.ply", input.mesh, result);
       write_file(folder / "result.json", to_json(result));
+      const std::optional<Truth> truth = truth_if_any(path, session.context());
+      const Scene scene = make_scene(analysis, model, result, truth ? &*truth : nullptr);
+      write_file(folder / "scene.json", to_json(scene, program_name()));
     }
     session.status("");
     if (options.json)
