@@ -13,9 +13,13 @@
 namespace toposcope::test {
 
 std::string schema_faults(const std::string& name, const std::string& document) {
+  return schema_file_faults(std::filesystem::path(TOPOSCOPE_SOURCE_DIR) / "schemas" / (name + ".schema.json"),
+                            document);
+}
+
+std::string schema_file_faults(const std::filesystem::path& file, const std::string& document) {
   using nlohmann::json;
-  const json schema_json =
-      json::parse(read_text(std::filesystem::path(TOPOSCOPE_SOURCE_DIR) / "schemas" / (name + ".schema.json")));
+  const json schema_json = json::parse(read_text(file));
   const json checked = json::parse(document);
   valijson::Schema schema;
   valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_json), schema);

@@ -9,6 +9,8 @@
 namespace toposcope {
 namespace {
 
+constexpr Index none = std::numeric_limits<Index>::max();
+
 /// Gathers what there is to show of a run.
 class SceneMaker {
  public:
@@ -23,15 +25,15 @@ class SceneMaker {
 
   void working_sets() {
     const WorkingSets& sets = analysis_.sets;
+    std::vector<Index> smallest(analysis_.mesh.view().vertex_count(), none);  // of the sets that hold a vertex
+    for (Index s = 0; s < sets.size(); ++s)
+      for (const Index v : sets[s])
+        if (smallest[v] == none || sets[s].size() < sets[smallest[v]].size()) smallest[v] = s;
     scene_.types = sets.type_names;
     for (Index type = 0; type < sets.type_names.size(); ++type) {
-      std::vector<bool> inside(analysis_.mesh.view().vertex_count(), false);
-      for (Index s = 0; s < sets.size(); ++s)
-        if (sets.types[s] == type)
-          for (const Index v : sets[s]) inside[v] = true;
       std::vector<Index> all;
-      for (Index v = 0; v < inside.size(); ++v)
-        if (inside[v]) all.push_back(v);
+      for (Index v = 0; v < smallest.size(); ++v)
+        if (smallest[v] != none && sets.types[smallest[v]] == type) all.push_back(v);
       scene_.all_sets.push_back({sets.type_names[type], scene_.of_sets().shown(all), all.size()});
     }
   }
@@ -141,6 +143,10 @@ void add_marks(const Truth* truth, Scene& scene) {
 
 }  // namespace
 
+std::string scene_title(const std::filesystem::path& mesh, const std::string& model) {
+  return mesh.filename().string() + " · " + model;
+}
+
 std::vector<std::uint8_t> labels_of(const Result& result, Index triangles) {
   std::vector<std::uint8_t> labels(triangles, 0);
   for (std::size_t f = 0; f < result.features.size(); ++f)
@@ -152,15 +158,18 @@ Scene make_scene(const Analysis& analysis, const Model& model, const Result& res
                  const SceneLimits& limits) {
   const Mesh& input = *analysis.mesh.input;
   Scene scene;
-  scene.title = std::filesystem::path(result.mesh_path).filename().string() + " · " + result.model;
+  scene.title = scene_title(result.mesh_path, result.model);
   scene.result = to_json_line(result);
   scene.model = model.document;
   for (const FeatureReport& report : result.features) scene.features.push_back(report.name);
   add_input(input, labels_of(result, input.view().face_count()), limits.triangles, scene);
-  if (analysis.mesh.filtered) scene.normalised = display_mesh(analysis.mesh.view(), {}, limits.triangles);
+  const bool whole = limits.candidates > 0;
+  if (whole && analysis.mesh.filtered) scene.normalised = display_mesh(analysis.mesh.view(), {}, limits.triangles);
   SceneMaker maker(analysis, model, result, limits, scene);
-  maker.working_sets();
-  maker.candidates();
+  if (whole) {
+    maker.working_sets();
+    maker.candidates();
+  }
   maker.found();
   add_marks(truth, scene);
   return scene;

@@ -50,7 +50,7 @@ struct Scene {
   std::vector<Index> input_faces;          ///< per shown triangle of `input` the face of the file
   std::optional<DisplayMesh> normalised;   ///< after the filters; absent where they changed nothing
   std::vector<std::string> types;          ///< of working sets
-  std::vector<ShownWorkingSet> all_sets;   ///< per type, the union
+  std::vector<ShownWorkingSet> all_sets;   ///< per type; a vertex that several hold goes with the smallest
   std::vector<ShownWorkingSet> sets;       ///< that candidates were made of
   std::vector<ShownCandidate> candidates;  ///< best first within a feature
   std::vector<FoundFeature> found;
@@ -64,8 +64,12 @@ struct Scene {
 
 struct SceneLimits {
   std::size_t triangles = shown_triangles_limit;  ///< of each surface
-  std::size_t candidates = 40;                    ///< of each feature; those that an alternative names come on top
+  std::size_t candidates = 40;  ///< of each feature; those that an alternative names come on top. 0: what was found
+                                ///< alone, no candidates, working sets or normalised mesh
 };
+
+/// A small scene: what was found.
+inline constexpr SceneLimits found_alone = {20000, 0};
 
 /// The scene of a run. \param truth  null: not known
 Scene make_scene(const Analysis& analysis, const Model& model, const Result& result, const Truth* truth,
@@ -76,6 +80,9 @@ Scene make_scene(const Analysis& analysis, const Model& model, const Result& res
 Scene make_scene(const Mesh& input, const std::vector<std::uint8_t>& labels, std::string result_json,
                  std::vector<FoundFeature> found, std::vector<std::string> features, const Truth* truth,
                  const SceneLimits& limits = {});
+
+/// "cup.ply · cup"
+std::string scene_title(const std::filesystem::path& mesh, const std::string& model);
 
 /// One label per triangle of the input: 0 none, 1 + the number of the last feature that has it.
 std::vector<std::uint8_t> labels_of(const Result& result, Index triangles);
