@@ -83,3 +83,28 @@ test('marks that the page saves are truth that evaluate reads', async () => {
   assert.equal(features.rim.right, 1);
   assert.ok(features.rim.mean_edges < 1, `${features.rim.mean_edges} mean edges from the marks`);
 });
+
+test('compare writes an index with the labelers side by side', async () => {
+  run('compare', 'cup.ply', '--model', 'cup', '--labelers', 'least-error,backtracking', '--out', 'compared');
+  const index = JSON.parse(readFileSync(join(folder, 'compared/index.json'), 'utf8'));
+  const { page, faults } = await open(browser, join(folder, 'compared/index.html'));
+  await page.waitForSelector('.views canvas');
+  assert.deepEqual(await page.$$eval('.views figcaption b', (names) => names.map((name) => name.textContent)), index.views.map((view: { name: string }) => view.name));
+  assert.equal(index.views.length, 2);
+  assert.equal(await page.locator('.gallery .card').count(), 1);
+  assert.ok(await page.locator('.gallery img').evaluate((image) => (image as HTMLImageElement).naturalWidth > 50), 'a thumbnail');
+  assert.equal(await page.locator('table').count(), index.tables.length);
+  assert.equal(await page.locator('table >> nth=0 >> tbody >> tr').count(), index.tables[0].rows.length);
+  assert.deepEqual(faults, []);
+  await page.context().close();
+});
+
+test('evaluate writes an index with reports behind its thumbnails', async () => {
+  run('evaluate', 'mine.yaml', '--out', 'evaluated', '--reports');
+  const { page, faults } = await open(browser, join(folder, 'evaluated/index.html'));
+  assert.equal(await page.locator('.figures figure').count() > 0, true, 'a reliability diagram');
+  const report = await page.getAttribute('.gallery a', 'href');
+  assert.ok(statSync(join(folder, 'evaluated', report!)).size > 5e5);
+  assert.deepEqual(faults, []);
+  await page.context().close();
+});

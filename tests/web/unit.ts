@@ -12,7 +12,7 @@ import { facing } from '@page/geometry/facing';
 import { creasedCorners } from '@page/geometry/normals';
 import { Occlusion } from '@page/geometry/occlusion';
 import { nearestCorner, pick } from '@page/geometry/pick';
-import { chosenRows, compareCells } from '@page/index/table';
+import { cellText, chosenRows, compareCells } from '@page/index/table';
 import { wilson } from '@page/index/reliability';
 import { arrange, type Label } from '@page/view/labels';
 import { roundLength } from '@page/view/scale_bar';
@@ -201,6 +201,7 @@ test('tables: filter by words, sort by value, nothing last', () => {
   assert.deepEqual(names(chosenRows(table, 'SEARCH', 0, false)), ['search-9', 'search-10'], '10 comes after 9');
   assert.deepEqual(names(chosenRows(table, '', 3, false)), ['least-error', 'annealing', 'backtracking', 'search-9', 'random', 'search-10']);
   assert.deepEqual(names(chosenRows(table, '', 3, true)), ['random', 'search-9', 'backtracking', 'annealing', 'least-error', 'search-10']);
+  assert.deepEqual([cellText(753200, 'number'), cellText(0.25, 'percent'), cellText(1500, 'ms'), cellText(null, 'text'), cellText(true, 'text')], ['753,200', '25 %', '1.5 s', '–', 'yes']);
   assert.ok(compareCells(2, 10) < 0 && compareCells(null, 1) > 0);
 });
 

@@ -15,6 +15,7 @@ export interface Table {
 
 export interface MeshCard {
   name: string;
+  dataset?: string;
   thumbnail?: string | null;
   verdicts?: Record<string, string>;
   report?: string | null;

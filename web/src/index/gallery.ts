@@ -13,7 +13,7 @@ function card(mesh: MeshCard): HTMLElement {
   return h(
     'li', { class: 'card' },
     h('div', { class: 'thumbnail' }, picture),
-    h('div', { class: 'about' }, h('h3', {}, name), mesh.probability !== null && mesh.probability !== undefined ? h('small', {}, `probability ${probability(mesh.probability)}`) : null,
+    h('div', { class: 'about' }, h('h3', {}, name), mesh.dataset && h('small', {}, mesh.dataset), mesh.probability !== null && mesh.probability !== undefined ? h('small', {}, `probability ${probability(mesh.probability)}`) : null,
       h('div', { class: 'verdicts' }, verdicts.map(([feature, verdict]) => h('span', { title: `${feature}: ${verdict}` }, verdictChip(verdict, `${feature}${kindOf(verdict) === 'met' ? '' : ` ${verdict}`}`))))),
   );
 }
@@ -31,7 +31,7 @@ export function gallery(meshes: MeshCard[]): HTMLElement {
   const more = h('button', { class: 'plain', onclick: () => { limit += 4 * SHOWN; fill(); } }, 'Show more');
   const fill = (): void => {
     const wanted = filter.value.trim().toLowerCase();
-    const chosen = meshes.filter((mesh) => mesh.name.toLowerCase().includes(wanted) && (!only.checked || faults(mesh) > 0));
+    const chosen = meshes.filter((mesh) => `${mesh.name} ${mesh.dataset ?? ''}`.toLowerCase().includes(wanted) && (!only.checked || faults(mesh) > 0));
     list.replaceChildren(...chosen.slice(0, limit).map(card));
     amount.textContent = chosen.length === meshes.length ? plural(meshes.length, 'mesh', 'meshes') : `${chosen.length} of ${plural(meshes.length, 'mesh', 'meshes')}`;
     more.hidden = chosen.length <= limit;

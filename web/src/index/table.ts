@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import type { Cell, Kind, Table } from '../data/index_document';
-import { figure, milliseconds, plural } from '../data/numbers';
+import { count, figure, milliseconds, plural } from '../data/numbers';
 import { h } from '../ui/dom';
 import { verdictChip } from './verdicts';
 
@@ -10,7 +10,7 @@ export function cellText(value: Cell, kind: Kind): string {
   if (typeof value === 'string') return value;
   if (kind === 'percent') return `${figure(100 * value, 3)} %`;
   if (kind === 'ms') return milliseconds(value);
-  return figure(value);
+  return Number.isInteger(value) && value >= 1000 ? count(value) : figure(value);
 }
 
 /** Numbers by value, texts as people order them (10 after 9), nothing last. */
@@ -35,6 +35,8 @@ export function chosenRows(table: Table, filter: string, column: number | null, 
 }
 
 const SHOWN = 300;
+/** Letters beyond which a text is broken into lines. */
+const LONG = 34;
 
 export function tableSection(table: Table): HTMLElement {
   let sorted: number | null = null, descending = false, limit = SHOWN;
@@ -43,7 +45,7 @@ export function tableSection(table: Table): HTMLElement {
   const more = h('button', { class: 'plain', onclick: () => { limit = Infinity; fill(); } }, 'Show all rows');
   const heads = table.columns.map((column, i) =>
     h('th', { scope: 'col', class: column.kind === 'text' || column.kind === 'verdict' ? '' : 'numeric' },
-      h('button', { onclick: () => sort(i) }, column.name, column.unit ? h('small', {}, ` ${column.unit}`) : null, h('span', { class: 'order', 'aria-hidden': 'true' }))));
+      h('button', { onclick: () => sort(i) }, column.name, column.unit && column.kind !== 'ms' ? h('small', {}, ` ${column.unit}`) : null, h('span', { class: 'order', 'aria-hidden': 'true' }))));
   const sort = (column: number): void => {
     descending = sorted === column ? !descending : false;
     sorted = column;
@@ -53,7 +55,7 @@ export function tableSection(table: Table): HTMLElement {
   const cell = (value: Cell, i: number, row: number): HTMLElement => {
     const { kind } = table.columns[i]!, text = cellText(value, kind), link = table.links?.[row];
     const content = kind === 'verdict' && typeof value === 'string' ? verdictChip(value) : i === 0 && link ? h('a', { href: link }, text) : text;
-    return h(i === 0 ? 'th' : 'td', { scope: i === 0 ? 'row' : null, class: kind === 'text' || kind === 'verdict' ? '' : 'numeric' }, content);
+    return h(i === 0 ? 'th' : 'td', { scope: i === 0 ? 'row' : null, class: kind === 'text' ? (text.length > LONG ? 'long' : '') : kind === 'verdict' ? '' : 'numeric' }, content);
   };
   const fill = (): void => {
     const rows = chosenRows(table, filter.value, sorted, descending);
