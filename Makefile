@@ -44,8 +44,9 @@ evaluate: configure
 	    --out evaluation/neal-1999/$$(basename $$set .yaml) || exit 1; \
 	done
 
-# Reports of three generated objects, in headless Chromium.
-screenshots: all
+# Reports of three generated objects, in headless Chromium, and what `toposcope render` draws of them.
+screenshots: configure
+	cmake --build $(BUILD) -j $(JOBS) --target program
 	@mkdir -p build/screenshots
 	for object in cup:cup airplane:airplane tee:pipe-fitting; do \
 	  kind=$${object%:*}; \
@@ -54,6 +55,7 @@ screenshots: all
 	done
 	cd $(BUILD)/web && node test/screenshots.mjs $(CURDIR)/docs/images \
 	  $(foreach kind,cup airplane tee,$(kind)=$(CURDIR)/build/screenshots/$(kind)/report.html)
+	TOPOSCOPE=$(TOPOSCOPE) ./scripts/pictures
 
 # Speed beside other libraries; CGAL and VTK take part when libcgal-dev and libvtk9-dev are installed.
 bench: deps
