@@ -2,6 +2,7 @@
 # make demo   install what is needed, build, label a cup and classify a tee
 # make test   install what is needed, build, run the tests
 # make evaluate   measure: made and real meshes against their truth, tables in evaluation/
+# make screenshots   pictures of reports for the docs
 # make fuzz   fuzz the mesh readers, FUZZ_SECONDS for each format
 PRESET ?= release
 BUILD := build/$(PRESET)
@@ -9,7 +10,7 @@ TOPOSCOPE := $(BUILD)/bin/toposcope
 # Compiling Eigen and Ceres takes about 1 GB a job.
 JOBS ?= $(shell nproc)
 
-.PHONY: all deps configure demo test evaluate bench fuzz format lint clean
+.PHONY: all deps configure demo test evaluate screenshots bench fuzz format lint clean
 all: configure
 	cmake --build $(BUILD) -j $(JOBS)
 
@@ -42,6 +43,19 @@ evaluate: configure
 	  $(TOPOSCOPE) evaluate $$set --pipeline neal-1999 --model neal-1999/$$(sed -n 's/^model: //p' $$set) \
 	    --out evaluation/neal-1999/$$(basename $$set .yaml) || exit 1; \
 	done
+
+# Reports of three generated objects, in headless Chromium, and what `toposcope render` draws of them.
+screenshots: configure
+	cmake --build $(BUILD) -j $(JOBS) --target program
+	@mkdir -p build/screenshots
+	for object in cup:cup airplane:airplane tee:pipe-fitting; do \
+	  kind=$${object%:*}; \
+	  $(TOPOSCOPE) sample $$kind --faces 20000 -o build/screenshots/$$kind.ply && \
+	  $(TOPOSCOPE) run build/screenshots/$$kind.ply --model $${object#*:} --out build/screenshots -q || exit 1; \
+	done
+	cd $(BUILD)/web && node test/screenshots.mjs $(CURDIR)/docs/images \
+	  $(foreach kind,cup airplane tee,$(kind)=$(CURDIR)/build/screenshots/$(kind)/report.html)
+	TOPOSCOPE=$(TOPOSCOPE) ./scripts/pictures
 
 # Speed beside other libraries; CGAL and VTK take part when libcgal-dev and libvtk9-dev are installed.
 bench: deps

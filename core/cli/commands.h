@@ -28,6 +28,13 @@ struct RunOptions : CommonOptions {
   std::string model;
   fs::path out;
   fs::path save_problem;  ///< empty: not written
+  bool report = true;
+};
+
+struct ReportOptions {
+  std::vector<fs::path> results;
+  fs::path mesh;  ///< empty: where the result says
+  bool quiet = false;
 };
 
 struct ClassifyOptions : CommonOptions {
@@ -40,6 +47,7 @@ struct CompareOptions : CommonOptions {
   std::string model;
   std::string labelers = "all";
   double time_limit_s = 10;
+  fs::path out;  ///< empty: nothing is written
   bool csv = false, markdown = false;
 };
 
@@ -47,6 +55,7 @@ struct EvaluateOptions : CommonOptions {
   std::vector<fs::path> datasets;
   std::string model;  ///< empty: the data set's
   fs::path out, baseline;
+  bool reports = false;  ///< one for each mesh
   bool csv = false, markdown = false;
 };
 
@@ -95,6 +104,22 @@ struct SampleOptions : CommonOptions {
   bool random = false;
 };
 
+struct ExportOptions {
+  std::vector<fs::path> results;
+  fs::path mesh;  ///< empty: where the result says
+  std::vector<std::string> formats = {"gltf", "vtp", "slicer"};
+  bool quiet = false;
+};
+
+struct RenderOptions {
+  std::vector<fs::path> results;
+  fs::path mesh, out;  ///< empty: where the result says; beside the result
+  std::vector<std::string> stages = {"found"};
+  std::string size = "1200x900", view = "auto", up = "auto", background = "white";
+  unsigned threads = 0;
+  bool quiet = false;
+};
+
 /// Each returns the exit code; errors leave as exceptions (base/errors.h).
 int run(const RunOptions& options);
 int label(const LabelOptions& options);
@@ -107,6 +132,9 @@ int model_show(const ModelOptions& options);
 int plugins_list(const PluginsOptions& options);
 int plugins_describe(const PluginsOptions& options);
 int plugins_check(const PluginsOptions& options);
+int report(const ReportOptions& options);
+int export_results(const ExportOptions& options);
+int render(const RenderOptions& options);
 int sample(const SampleOptions& options);
 
 }  // namespace toposcope::cli

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <set>
+
 #include "base/errors.h"
 #include "commands.h"
 #include "compare/comparison.h"
+#include "index/index_document.h"
+#include "io/mesh_io.h"
 #include "model/read_model.h"
+#include "output_folder.h"
+#include "picture/stages.h"
+#include "report_files.h"
 #include "resources.h"
 #include "session.h"
 
@@ -58,6 +65,28 @@ std::vector<Contender> contenders_of(const std::string& list, Session& session) 
   return contenders;
 }
 
+/// What the index shows of meshes and labelers.
+class Gallery {
+ public:
+  void add(const Comparison& comparison, std::vector<LabelerView> views, Context& context) {
+    cards_.push_back({thumbnail_of(views.front().scene, context), ""});
+    // Of one mesh, that on which labelers differ most: side by side on others they would look the same.
+    std::set<std::vector<std::pair<std::string, Index>>> labellings;
+    for (const Entry& entry : comparison.entries) labellings.insert(entry.labelling);
+    if (labellings.size() <= most_labellings_) return;
+    most_labellings_ = labellings.size();
+    views_ = std::move(views);
+  }
+  std::string index(const std::vector<Comparison>& comparisons) const {
+    return comparison_index(comparisons, cards_, views_, program_name());
+  }
+
+ private:
+  std::vector<MeshCard> cards_;
+  std::vector<LabelerView> views_;
+  std::size_t most_labellings_ = 0;
+};
+
 }  // namespace
 
 int compare(const CompareOptions& options) {
@@ -67,7 +96,9 @@ int compare(const CompareOptions& options) {
   const std::vector<Contender> contenders = contenders_of(options.labelers, session);
   LabelingRequest request;
   request.time_limit_s = options.time_limit_s;
+  if (!options.out.empty()) make_folder(options.out, "--out");
   std::vector<Comparison> comparisons;
+  Gallery gallery;
   const bool text = !options.json && !options.csv && !options.markdown;
   const int code = for_each_mesh(options.meshes, session, [&](const fs::path& path) {
     const Mesh mesh = session.read(path).mesh;
@@ -75,12 +106,23 @@ int compare(const CompareOptions& options) {
     std::optional<Truth> truth;
     if (!truth_file.empty()) truth = read_truth(truth_file);
     Analysis analysis = construct(mesh, model, stations, session.context());
+    std::vector<LabelerView> views;
+    const auto look = [&](const Contender& contender, const Analysis& labelled, const Result& result) {
+      views.push_back({contender.name, make_scene(labelled, model, result, truth ? &*truth : nullptr, found_alone)});
+    };
     comparisons.push_back(toposcope::compare(analysis, model, stations, path.string(), contenders, request,
-                                             truth ? &*truth : nullptr, session.context()));
+                                             truth ? &*truth : nullptr, session.context(),
+                                             options.out.empty() ? LabelerObserver() : look));
+    if (!options.out.empty()) gallery.add(comparisons.back(), std::move(views), session.context());
     session.status("");
     if (text) fmt::print("{}", to_text(comparisons.back()));
     std::fflush(stdout);
   });
+  if (!options.out.empty()) {
+    write_file(options.out / "comparison.json", to_json(comparisons));
+    write_file(options.out / "comparison.csv", to_csv(comparisons));
+    write_index(options.out, gallery.index(comparisons), session.context());
+  }
   if (options.json)
     fmt::print("{}", to_json(comparisons));
   else if (options.csv)

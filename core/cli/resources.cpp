@@ -63,6 +63,18 @@ fs::path find_resource(const std::string& kind, const std::string& name) {
   throw UsageError(message + "; or give a file that ends in .yaml");
 }
 
+fs::path find_page() {
+  std::error_code error;
+  for (const fs::path& folder : folders("web"))
+    if (fs::is_regular_file(folder / "report.html", error)) return folder / "report.html";
+  return {};
+}
+
+std::string page_missing() {
+  return "web/report.html, the page that shows results, is not beside the program; build or install Toposcope anew, "
+         "or name the folder that has it in TOPOSCOPE_DATA_PATH";
+}
+
 std::vector<fs::path> find_models(const std::string& folder_or_list) {
   if (folder_or_list.find('/') != std::string::npos && fs::is_directory(folder_or_list)) {
     std::vector<fs::path> files = yaml_files(folder_or_list);

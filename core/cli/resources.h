@@ -17,4 +17,10 @@ std::filesystem::path find_resource(const std::string& kind, const std::string& 
 /// The models of a folder (with a '/' in its name), or of a list of names separated by commas.
 std::vector<std::filesystem::path> find_models(const std::string& folder_or_list);
 
+/// The page that shows results, web/report.html, looked up as models are. Empty: it is not there.
+std::filesystem::path find_page();
+
+/// Why there is no page, and what to do.
+std::string page_missing();
+
 }  // namespace toposcope::cli

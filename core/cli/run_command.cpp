@@ -9,8 +9,10 @@
 #include "model/read_model.h"
 #include "output_folder.h"
 #include "problem/problem_io.h"
+#include "report_files.h"
 #include "resources.h"
 #include "result/result.h"
+#include "scene/scene.h"
 #include "session.h"
 
 namespace toposcope::cli {
@@ -25,6 +27,18 @@ void save_problems(const fs::path& path, const Analysis& analysis, Context& cont
       file.replace_filename(path.stem().string() + "-" + each.name + path.extension().string());
     for (const std::string& note : write_problem(file, each.problem))
       context.log(LogLevel::info, file.string() + ": " + note);
+  }
+}
+
+/// What is known of the mesh, to show it. A file that cannot be read costs a warning, not the result.
+std::optional<Truth> truth_if_any(const fs::path& mesh, Context& context) {
+  const fs::path file = truth_beside(mesh);
+  if (file.empty()) return std::nullopt;
+  try {
+    return read_truth(file);
+  } catch (const UsageError& error) {
+    context.log(LogLevel::warning, std::string(error.what()) + "; its marks are not shown");
+    return std::nullopt;
   }
 }
 
@@ -43,6 +57,10 @@ int run(const RunOptions& options) {
   const Model model = read_model(find_resource("models", options.model), &session.host().catalog());
   const Stations stations = session.stations(model);
 
+  std::optional<Page> page;
+  if (!options.out.empty() && options.report)
+    page.emplace("report.html", "; --no-report says nothing of it", session.context());
+
   return for_each_mesh(options.meshes, session, [&](const fs::path& path) {
     const auto start = std::chrono::steady_clock::now();
     const RepairedMesh input = session.read(path);
@@ -57,6 +75,11 @@ int run(const RunOptions& options) {
       make_folder(folder, "--out");
       write_labels(folder / "labels.ply", input.mesh, result);
       write_file(folder / "result.json", to_json(result));
+      const std::optional<Truth> truth = truth_if_any(path, session.context());
+      const Scene scene = make_scene(analysis, model, result, truth ? &*truth : nullptr);
+      const std::string document = to_json(scene, program_name());
+      write_file(folder / "scene.json", document);
+      if (page) page->write(folder / "report.html", document);
     }
     session.status("");
     if (options.json)
@@ -64,8 +87,11 @@ int run(const RunOptions& options) {
     else if (!options.quiet)
       fmt::print("{}\n", to_text(result));
     if (!options.out.empty() && !options.quiet && !options.json)
-      fmt::print("  coloured mesh: {}\n  result:        {}\n\n", (options.out / path.stem() / "labels.ply").string(),
-                 (options.out / path.stem() / "result.json").string());
+      fmt::print("  coloured mesh: {}\n  result:        {}\n{}\n", (options.out / path.stem() / "labels.ply").string(),
+                 (options.out / path.stem() / "result.json").string(),
+                 !page || !page->there()
+                     ? ""
+                     : "  to look at:    " + (options.out / path.stem() / "report.html").string() + "\n");
     std::fflush(stdout);
   });
 }

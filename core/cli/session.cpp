@@ -45,6 +45,10 @@ spdlog::level::level_enum level_of(LogLevel level) {
 
 }  // namespace
 
+std::string program_name() {
+  return "toposcope " TOPOSCOPE_VERSION;
+}
+
 PluginCatalog open_catalog(const std::vector<fs::path>& plugin_dirs, bool warn) {
   PluginCatalog catalog(plugin_search_path(plugin_dirs));
   if (warn)

@@ -46,6 +46,9 @@ class PipelineSession : public Session {
   PipelineManifest pipeline_;
 };
 
+/// Name and version, for what the program writes.
+std::string program_name();
+
 /// The plugins that can be found; a warning on stderr about each that cannot be used.
 PluginCatalog open_catalog(const std::vector<fs::path>& plugin_dirs, bool warn = true);
 

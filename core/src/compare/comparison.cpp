@@ -49,7 +49,7 @@ Entry entry_of(const Contender& contender, const ClassOutcome& best, double time
 
 Comparison compare(Analysis& analysis, const Model& model, const Stations& stations, const std::string& mesh,
                    const std::vector<Contender>& contenders, const LabelingRequest& request, const Truth* truth,
-                   Context& context) {
+                   Context& context, const LabelerObserver& observer) {
   Comparison comparison{mesh, {}};
   std::vector<ClassBound> bounds;
   for (const Contender& contender : contenders) {
@@ -65,8 +65,10 @@ Comparison compare(Analysis& analysis, const Model& model, const Stations& stati
       nodes += solved.nodes;
     }
     comparison.entries.push_back(entry_of(contender, analysis.classes[analysis.best], time_ms, nodes));
-    if (!truth) continue;
+    if (!truth && !observer) continue;
     const Result result = explain(analysis, model, mesh, with, context);
+    if (observer) observer(contender, analysis, result);
+    if (!truth) continue;
     const Judgement judged = judge(result, analysis, model, with, *truth);
     if (judged.features.empty()) continue;
     comparison.entries.back().right = judged.right();

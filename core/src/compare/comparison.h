@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,13 +55,16 @@ struct Total {
 };
 std::vector<Total> totals(const std::vector<Comparison>& comparisons);
 
+/// Called after each labeler, with what it made of the mesh.
+using LabelerObserver = std::function<void(const Contender&, const Analysis&, const Result&)>;
+
 /// Solves the problem of a mesh with each labeler.
 /// \param analysis  constructed; its labels are replaced
 /// \param stations  of the pipeline; its marginals serve every labeler
 /// \param truth     null: unknown
 Comparison compare(Analysis& analysis, const Model& model, const Stations& stations, const std::string& mesh,
                    const std::vector<Contender>& contenders, const LabelingRequest& request, const Truth* truth,
-                   Context& context);
+                   Context& context, const LabelerObserver& observer = {});
 
 /// The table of one mesh, and that over all.
 std::string to_text(const Comparison& comparison);

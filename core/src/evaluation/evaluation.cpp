@@ -39,10 +39,10 @@ class MeshContext final : public Context {
 
 class Evaluator {
  public:
-  Evaluator(const Model& model, const Stations& stations, PluginHost& host, bool by_class)
-      : model_(model), stations_(stations), host_(host), by_class_(by_class) {}
+  Evaluator(const Model& model, const Stations& stations, PluginHost& host, bool by_class, const MeshObserver& observer)
+      : model_(model), stations_(stations), host_(host), by_class_(by_class), observer_(observer) {}
 
-  MeshEvaluation mesh(const DatasetMesh& item, Context& context) const {
+  MeshEvaluation mesh(std::size_t number, const DatasetMesh& item, Context& context) const {
     MeshEvaluation evaluation;
     evaluation.name = item.name;
     evaluation.object = item.object;
@@ -52,7 +52,7 @@ class Evaluator {
       const KnownMesh known = load(item, host_, context);
       if (!model_.classes.empty() && evaluation.expected_class.empty())
         evaluation.expected_class = known.truth.class_name;
-      label(known, evaluation, context);
+      label(number, known, evaluation, context);
       // Nothing to compare with is no success.
       if (by_class_ && !evaluation.class_known())
         throw UsageError(item.name + ": its class is not known; give it in the data set, or in a truth file");
@@ -69,7 +69,7 @@ class Evaluator {
   }
 
  private:
-  void label(const KnownMesh& known, MeshEvaluation& evaluation, Context& context) const {
+  void label(std::size_t number, const KnownMesh& known, MeshEvaluation& evaluation, Context& context) const {
     const auto start = std::chrono::steady_clock::now();
     const Analysis analysis = analyze(known.mesh, model_, stations_, {}, context);
     const Result result = explain(analysis, model_, evaluation.name, stations_, context);
@@ -79,6 +79,7 @@ class Evaluator {
     evaluation.judgement = judge(result, analysis, model_, stations_, known.truth);
     for (const RelationReport& relation : result.relations)
       if (relation.satisfied) evaluation.satisfied.push_back(relation.name);
+    if (observer_) observer_({number, known, analysis, result, context});
     if (model_.classes.empty()) return;
     evaluation.found_class = result.class_name;
     evaluation.class_probability =
@@ -89,12 +90,13 @@ class Evaluator {
   const Stations& stations_;
   PluginHost& host_;
   bool by_class_;
+  const MeshObserver& observer_;
 };
 
 }  // namespace
 
 Evaluation evaluate(const Dataset& dataset, const Model& model, const Stations& stations, PluginHost& host,
-                    Context& context) {
+                    Context& context, const MeshObserver& observer) {
   const auto start = std::chrono::steady_clock::now();
   Evaluation evaluation;
   evaluation.dataset = dataset.name;
@@ -103,14 +105,14 @@ Evaluation evaluate(const Dataset& dataset, const Model& model, const Stations& 
   evaluation.by_class = dataset.by_class;
   evaluation.absent = dataset.absent;
   evaluation.meshes.resize(dataset.meshes.size());
-  const Evaluator evaluator(model, stations, host, dataset.by_class);
+  const Evaluator evaluator(model, stations, host, dataset.by_class, observer);
   const bool alone = dataset.meshes.size() < 2 * context.threads();
   std::mutex mutex;
   std::size_t finished = 0;
   const auto one = [&](std::size_t i) {
     if (context.cancelled()) return;
     MeshContext inner(context, dataset.meshes[i].name, alone);
-    evaluation.meshes[i] = evaluator.mesh(dataset.meshes[i], inner);
+    evaluation.meshes[i] = evaluator.mesh(i, dataset.meshes[i], inner);
     const std::lock_guard lock(mutex);
     context.progress(static_cast<double>(++finished) / static_cast<double>(dataset.meshes.size()));
   };

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "evaluation/dataset.h"
+#include "evaluation/dataset_mesh.h"
+#include "result/result.h"
 #include "truth/judgement.h"
 
 namespace toposcope {
@@ -37,10 +39,21 @@ struct Evaluation {
   bool right(const MeshEvaluation& mesh) const { return by_class ? mesh.class_right() : mesh.features_right(); }
 };
 
+/// What was made of one mesh, while it is all there.
+struct MeshAtHand {
+  std::size_t number = 0;  ///< of the mesh in the data set
+  const KnownMesh& known;
+  const Analysis& analysis;
+  const Result& result;
+  Context& context;
+};
+/// Called once for each mesh that went through, from several threads.
+using MeshObserver = std::function<void(const MeshAtHand&)>;
+
 /// Labels every mesh of a data set and judges the result. Several meshes run side by side, each on one thread; the
 /// numbers are the same at any thread count. A mesh that cannot be used is part of the result.
 Evaluation evaluate(const Dataset& dataset, const Model& model, const Stations& stations, PluginHost& host,
-                    Context& context);
+                    Context& context, const MeshObserver& observer = {});
 
 // ---- numbers ----
 

@@ -23,7 +23,9 @@ std::string in_thousands(Index faces) {
 std::vector<fs::path> matching(const fs::path& pattern) {
   std::vector<fs::path> files;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(pattern.parent_path(), ignored))
+  // A data set named without a folder lies in the present one.
+  const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
     if (entry.is_regular_file(ignored) &&
         fnmatch(pattern.filename().c_str(), entry.path().filename().c_str(), FNM_PERIOD) == 0)
       files.push_back(entry.path());

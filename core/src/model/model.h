@@ -86,6 +86,7 @@ struct ClassRule {
 struct Model {
   std::string name, summary, citation;
   std::string file;
+  std::string document;  ///< the file as JSON
   AbstractModel abstract;
   std::vector<ModelFeature> features;
   std::vector<Relationship> relationships;

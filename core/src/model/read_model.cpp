@@ -4,6 +4,7 @@
 #include "base/schemas.h"
 #include "base/text_file.h"
 #include "model/model_reading.h"
+#include "model/yaml_json.h"
 
 namespace toposcope {
 namespace {
@@ -26,6 +27,7 @@ Model model_from_text(const std::string& text, const std::string& file, const Pl
   model.summary = text_of(root["summary"]);
   model.citation = text_of(root["citation"]);
   model.file = file;
+  model.document = yaml_to_json(root, file, errors).value.dump();
   model.abstract = read_abstract_model(root, reading);
   model.features = read_features(root, model.abstract, reading);
   model.relationships = read_relationships(root, model.features, reading);

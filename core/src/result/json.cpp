@@ -5,6 +5,7 @@
 #include "result/classification.h"
 #include "result/repair_words.h"
 #include "result/result.h"
+#include "result/shape_json.h"
 
 namespace toposcope {
 namespace {
@@ -14,26 +15,6 @@ using Json = nlohmann::ordered_json;
 /// JSON has no NaN or infinity.
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json parameters(const FittedShape& shape) {
-  Json object = Json::object();
-  for (const ShapeParameter& parameter : shape.parameters) {
-    if (parameter.name == "closed") {
-      object[parameter.name] = parameter.values.front() != 0;
-      continue;
-    }
-    Json rows = Json::array();
-    const std::size_t columns = static_cast<std::size_t>(parameter.columns);
-    for (std::size_t i = 0; i < parameter.values.size(); i += columns) {
-      Json row = Json::array();
-      for (std::size_t k = i; k < i + columns; ++k) row.push_back(parameter.values[k]);
-      rows.push_back(columns == 1 ? row[0] : row);
-    }
-    const bool list = parameter.name == "endpoints";
-    object[parameter.name] = list ? rows : rows[0];
-  }
-  return object;
 }
 
 Json fit(const FittedShape& shape) {
@@ -96,7 +77,7 @@ Json feature(const FeatureReport& report) {
     object["probability"] = number(report.probability);
     object["evidence"] = number(report.evidence);
     object["shape"] = report.shape_plugin;
-    object["parameters"] = parameters(report.shape);
+    object["parameters"] = parameters_json(report.shape.parameters);
     object["measures"] = measures(report.shape);
     object["fit_error"] = number(report.shape.rms);
     object["fit"] = fit(report.shape);
@@ -108,7 +89,7 @@ Json feature(const FeatureReport& report) {
   object["probability_missing"] = number(report.probability);
   Json why = {{"reason", report.missing.reason}};
   if (report.missing.nearest) {
-    why["nearest_candidate"] = {{"parameters", parameters(*report.missing.nearest)},
+    why["nearest_candidate"] = {{"parameters", parameters_json(report.missing.nearest->parameters)},
                                 {"fit_error", number(report.missing.nearest->rms)},
                                 {"cost", number(report.missing.nearest_cost)}};
     why["relations_failed"] = Json::array();

@@ -6,14 +6,10 @@
 #include "io/mesh_io.h"
 #include "result/repair_words.h"
 #include "result/result.h"
+#include "scene/palette.h"
 
 namespace toposcope {
 namespace {
-
-/// Colour-blind safe (Okabe and Ito); unlabelled faces are light grey.
-constexpr Rgb no_label = {210, 210, 210};
-constexpr Rgb palette[] = {{0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {230, 159, 0},
-                           {0, 114, 178}, {213, 94, 0},    {240, 228, 66}, {90, 90, 90}};
 
 /// The dissertation's ranking of labellings makes no probabilities.
 std::string probability(double value) {
@@ -71,11 +67,11 @@ std::string to_text(const Result& result) {
 
 void write_labels(const std::filesystem::path& path, const Mesh& input, const Result& result) {
   const MeshView& view = input.view();
-  std::vector<Rgb> colors(view.face_count(), no_label);
+  std::vector<Rgb> colors(view.face_count(), no_label_color);
   std::vector<std::int32_t> labels(view.face_count(), 0);
   for (std::size_t f = 0; f < result.features.size(); ++f)
     for (Index t : result.features[f].triangles) {
-      colors[t] = palette[f % std::size(palette)];
+      colors[t] = feature_color(f);
       labels[t] = static_cast<std::int32_t>(f + 1);
     }
   write_mesh(path, view.positions, view.triangles, {colors, labels, input.face_origin()});

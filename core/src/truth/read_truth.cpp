@@ -114,7 +114,11 @@ Truth read_truth(const std::filesystem::path& path) {
   const std::string text = read_text_file(path, "truth file");
   const Reader reader(path.string());
   try {
-    return reader.read(Json::parse(text));
+    Json root = Json::parse(text);
+    Truth truth = reader.read(root);
+    root.erase("parts");
+    truth.document = root.dump();
+    return truth;
   } catch (const Json::exception& error) {
     reader.fail("", std::string("is no JSON: ") + error.what());
   }

@@ -37,6 +37,8 @@ struct Truth {
   std::string class_name;
   std::vector<TruthFeature> features;
   std::optional<double> mean_edge, diagonal;  ///< that distances are judged by; without them those of the mesh
+  std::string
+      document;  ///< the file as JSON without its parts, which may be as long as the mesh; empty: not from a file
   const TruthFeature* find(std::string_view name) const;
 };
 

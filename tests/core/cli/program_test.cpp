@@ -39,7 +39,7 @@ json result_of(const fs::path& file, bool timings = false) {
 
 TEST_F(Program, LabelsACupAndSaysWhereTheMeshLies) {
   const TemporaryFolder out;
-  const Outcome outcome = toposcope("run " + mesh("cup") + " --model cup --out " + out.path.string());
+  const Outcome outcome = toposcope("run " + mesh("cup") + " --model cup --no-report --out " + out.path.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   for (const char* word : {"rim", "bottomEdge", "bottom", "handleCon", "concentric", "residual", "labels.ply"})
     EXPECT_THAT(outcome.out, HasSubstr(word));
@@ -133,7 +133,8 @@ TEST_F(Program, BadMeshesAreRefusedAndTheOthersStillDone) {
   };
   for (const auto& [name, text] : bad) {
     write_text(in / name, text);
-    const Outcome outcome = toposcope("run " + (in / name).string() + " --model cup --out " + out.path.string());
+    const Outcome outcome =
+        toposcope("run " + (in / name).string() + " --model cup --no-report --out " + out.path.string());
     EXPECT_EQ(outcome.exit_code, 3) << name << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(name));
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;

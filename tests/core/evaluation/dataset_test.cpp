@@ -42,6 +42,18 @@ TEST_F(DatasetFile, FilesByPatternWithTheTruthBesideThem) {
   EXPECT_FALSE(dataset.by_class);
 }
 
+TEST_F(DatasetFile, NamedWithoutItsFolderItFindsFilesBesideItself) {
+  test::write_text(folder_ / "a.off", "x");
+  read("meshes: [{files: a.off}]\n");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_ / ".");
+  Dataset dataset;
+  EXPECT_NO_THROW(dataset = read_dataset("set.yaml"));
+  std::filesystem::current_path(before);
+  ASSERT_EQ(dataset.meshes.size(), 1U);
+  EXPECT_EQ(dataset.meshes[0].file.filename(), "a.off");
+}
+
 TEST_F(DatasetFile, OptionalFilesThatAreAbsentAreTold) {
   const Dataset dataset = read("meshes: [{files: nowhere/*.off, optional: true}]\n");
   EXPECT_TRUE(dataset.meshes.empty());

@@ -5,33 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validation_results.hpp>
-#include <valijson/validator.hpp>
 
 #include "support/program.h"
+#include "support/schemas.h"
 
 namespace toposcope::test {
 namespace {
 
 using nlohmann::json;
-
-std::string faults(const std::string& schema_name, const json& document) {
-  const json schema_json =
-      json::parse(read_text(std::filesystem::path(TOPOSCOPE_SOURCE_DIR) / "schemas" / (schema_name + ".schema.json")));
-  valijson::Schema schema;
-  valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_json), schema);
-  valijson::ValidationResults results;
-  valijson::Validator().validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &results);
-  std::string text;
-  for (valijson::ValidationResults::Error error; results.popError(error);) {
-    for (const std::string& step : error.context) text += step;
-    text += ": " + error.description + "\n";
-  }
-  return text;
-}
 
 TEST(ResultSchema, HoldsForFoundMissingAndClassifiedFeatures) {
   const TemporaryFolder folder;
@@ -42,13 +23,13 @@ TEST(ResultSchema, HoldsForFoundMissingAndClassifiedFeatures) {
                                      cup + " --model neal-1999/cup --pipeline neal-1999"}) {
     const Outcome outcome = toposcope("run " + command + " --json");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_EQ(faults("result", json::parse(outcome.out)), "") << command;
+    EXPECT_EQ(schema_faults("result", outcome.out), "") << command;
   }
   json broken = json::parse(toposcope("run " + cup + " --model cup --json").out);
   EXPECT_FALSE(broken["features"]["handleCon"]["present"].get<bool>());
   broken["features"]["rim"].erase("probability");
-  EXPECT_NE(faults("result", broken), "");
-  EXPECT_EQ(faults("truth", json::parse(read_text(folder / "cup.truth.json"))), "");
+  EXPECT_NE(schema_faults("result", broken.dump()), "");
+  EXPECT_EQ(schema_faults("truth", read_text(folder / "cup.truth.json")), "");
 }
 
 }  // namespace

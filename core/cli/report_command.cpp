@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "base/errors.h"
+#include "base/text_file.h"
+#include "commands.h"
+#include "resources.h"
+#include "scene/page.h"
+#include "session.h"
+#include "stored_results.h"
+
+namespace toposcope::cli {
+
+int report(const ReportOptions& options) {
+  const fs::path page_file = find_page();
+  if (page_file.empty()) throw UsageError(page_missing());
+  const std::string page = read_text_file(page_file, "page");
+  return for_each_result(options.results, options.mesh, [&](const fs::path& folder) {
+    const Scene scene = stored_scene(folder, options.mesh);
+    const fs::path file = folder / "report.html";
+    write_file(file, page_with(page, to_json(scene, program_name()), page_file.string()));
+    if (!options.quiet) fmt::print("{}\n", file.string());
+  });
+}
+
+}  // namespace toposcope::cli

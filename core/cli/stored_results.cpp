@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stored_results.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "base/errors.h"
+#include "base/text_file.h"
+
+namespace toposcope::cli {
+
+fs::path result_folder(const fs::path& given) {
+  std::error_code ignored;
+  const fs::path folder = fs::is_directory(given, ignored) ? given : given.parent_path();
+  if (!fs::exists(given, ignored) || !fs::is_regular_file(folder / "result.json", ignored))
+    throw UsageError(given.string() + ": no result.json there; give a folder that toposcope run --out wrote, as in " +
+                     "results/cup");
+  return folder;
+}
+
+Scene stored_scene(const fs::path& folder, const fs::path& mesh) {
+  const fs::path file = folder / "scene.json";
+  std::error_code ignored;
+  if (fs::is_regular_file(file, ignored)) return read_scene(read_text_file(file, "scene"), file.string());
+  const LabelledMesh labelled = read_labelled_mesh(folder / "result.json", mesh);
+  const fs::path truth_file = truth_beside(mesh.empty() ? labelled.result.mesh : mesh);
+  std::optional<Truth> truth;
+  if (!truth_file.empty()) truth = read_truth(truth_file);
+  return scene_of(labelled, truth ? &*truth : nullptr);
+}
+
+int for_each_result(const std::vector<fs::path>& results, const fs::path& mesh,
+                    const std::function<void(const fs::path& folder)>& body) {
+  if (!mesh.empty() && results.size() > 1)
+    throw UsageError("--mesh names the mesh of one result, and " + std::to_string(results.size()) +
+                     " are given; take them one by one");
+  int code = 0;
+  for (const fs::path& given : results) try {
+      body(result_folder(given));
+    } catch (const Error& error) {
+      fmt::print(stderr, "toposcope: {}\n", error.what());
+      if (code == 0) code = error.exit_code;
+    }
+  return code;
+}
+
+}  // namespace toposcope::cli
