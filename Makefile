@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # make demo   install what is needed, build, label a cup and classify a tee
 # make test   install what is needed, build, run the tests
+# make packages   the Debian packages
 # make evaluate   measure: made and real meshes against their truth, tables in evaluation/
 # make fuzz   fuzz the mesh readers, FUZZ_SECONDS for each format
 PRESET ?= release
@@ -9,7 +10,7 @@ TOPOSCOPE := $(BUILD)/bin/toposcope
 # Compiling Eigen and Ceres takes about 1 GB a job.
 JOBS ?= $(shell nproc)
 
-.PHONY: all deps configure demo test evaluate bench fuzz format lint clean
+.PHONY: all deps configure demo test packages evaluate bench fuzz format lint clean
 all: configure
 	cmake --build $(BUILD) -j $(JOBS)
 
@@ -30,6 +31,14 @@ demo: configure
 
 test: all
 	ctest --preset $(PRESET) -j $(JOBS)
+
+# Debian packages: toposcope, toposcope-plugins, libtoposcope-dev, in build/release/packages.
+packages: deps
+	@./scripts/install-deps dpkg-dev file
+	@mkdir -p build
+	@cmake --preset release > build/release.log 2>&1 || { cat build/release.log; exit 1; }
+	cmake --build build/release -j $(JOBS) --target program
+	cd build/release && cpack -G DEB
 
 SETS := $(addprefix datasets/,$(addsuffix .yaml,five-cups five-fittings three-airplanes psb-cups psb-airplanes \
   real-fittings raw-fittings resolution noise random-cups random-fittings random-airplanes))

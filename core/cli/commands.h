@@ -75,9 +75,12 @@ struct ModelOptions {
 
 struct PluginsOptions {
   std::vector<fs::path> plugin_dirs;
-  std::string id;
+  std::string kind, id;
   std::vector<fs::path> paths;
   bool json = false;
+  bool valgrind = false;  ///< check: for errors of memory too
+  fs::path child;         ///< check: the library to examine in this process; for the program itself
+  bool brief = false;
 };
 
 struct SampleOptions : CommonOptions {
@@ -106,6 +109,7 @@ int model_check(const ModelOptions& options);
 int model_show(const ModelOptions& options);
 int plugins_list(const PluginsOptions& options);
 int plugins_describe(const PluginsOptions& options);
+int plugins_new(const PluginsOptions& options);
 int plugins_check(const PluginsOptions& options);
 int sample(const SampleOptions& options);
 

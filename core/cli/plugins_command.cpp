@@ -92,39 +92,4 @@ int plugins_describe(const PluginsOptions& options) {
   return 0;
 }
 
-int plugins_check(const PluginsOptions& options) {
-  std::vector<PluginFolder> folders;
-  for (const fs::path& path : options.paths) {
-    if (!fs::exists(path)) throw UsageError(path.string() + ": no such file or folder");
-    folders.push_back({fs::absolute(fs::is_directory(path) ? path : path.parent_path()), true});
-  }
-  if (folders.empty()) folders = plugin_search_path(options.plugin_dirs);
-  PluginHost host{PluginCatalog(folders)};
-  int bad = 0, good = 0;
-  for (const PluginProblem& problem : host.catalog().problems()) {
-    fmt::print("FAIL  {}\n", problem.message);
-    ++bad;
-  }
-  for (PluginKind kind : kinds)
-    for (const PluginManifest* plugin : host.catalog().all(kind)) {
-      const bool asked =
-          options.paths.empty() || std::any_of(options.paths.begin(), options.paths.end(), [&](const fs::path& path) {
-            return fs::is_directory(path) || fs::absolute(path).stem() == plugin->library.stem();
-          });
-      if (!asked) continue;
-      try {
-        host.load(kind, plugin->id);
-        fmt::print("ok    {} {} ({}): {}{}\n", plugin->id, plugin->version, to_string(kind), plugin->library.string(),
-                   availability(*plugin));
-        ++good;
-      } catch (const Error& error) {
-        fmt::print("FAIL  {}\n", error.what());
-        ++bad;
-      }
-    }
-  fmt::print("{} usable, {} not\n", good, bad);
-  if (good + bad == 0) throw UsageError("no plugin found; give libraries or folders that hold <id>.plugin.json files");
-  return bad == 0 ? 0 : 4;
-}
-
 }  // namespace toposcope::cli
