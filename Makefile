@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # make demo   install what is needed, build, label a cup and classify a tee
 # make test   install what is needed, build, run the tests
+# make pages   renew the tables of options in the plugins' pages
 # make packages   the Debian packages
 # make evaluate   measure: made and real meshes against their truth, tables in evaluation/
 # make fuzz   fuzz the mesh readers, FUZZ_SECONDS for each format
@@ -10,7 +11,7 @@ TOPOSCOPE := $(BUILD)/bin/toposcope
 # Compiling Eigen and Ceres takes about 1 GB a job.
 JOBS ?= $(shell nproc)
 
-.PHONY: all deps configure demo test packages evaluate bench fuzz format lint clean
+.PHONY: all deps configure demo test packages pages evaluate bench fuzz format lint clean
 all: configure
 	cmake --build $(BUILD) -j $(JOBS)
 
@@ -31,6 +32,13 @@ demo: configure
 
 test: all
 	ctest --preset $(PRESET) -j $(JOBS)
+
+# The tables of options in the plugins' pages, from their descriptors; a test fails where they differ.
+pages: configure
+	cmake --build $(BUILD) -j $(JOBS) --target program
+	for page in plugins/*/*/*.md; do \
+	  $(TOPOSCOPE) plugins describe $$(basename $$page .md) --page $$page || exit 1; \
+	done
 
 # Debian packages: toposcope, toposcope-plugins, libtoposcope-dev, in build/release/packages.
 packages: deps

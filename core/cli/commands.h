@@ -28,6 +28,7 @@ struct RunOptions : CommonOptions {
   std::string model;
   fs::path out;
   fs::path save_problem;  ///< empty: not written
+  fs::path lock, locked;  ///< write a lock file; refuse a run that differs from one
 };
 
 struct ClassifyOptions : CommonOptions {
@@ -78,6 +79,7 @@ struct PluginsOptions {
   std::string kind, id;
   std::vector<fs::path> paths;
   bool json = false;
+  fs::path page;          ///< describe: the documentation page whose tables to renew
   bool valgrind = false;  ///< check: for errors of memory too
   fs::path child;         ///< check: the library to examine in this process; for the program itself
   bool brief = false;

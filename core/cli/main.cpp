@@ -150,6 +150,7 @@ void add_plugins(CLI::App& app, PluginsOptions& options, int& code) {
   CLI::App* check_app = plugins_app->add_subcommand("check", "hold plugins against what every plugin of its kind owes");
   CLI::App* new_app = plugins_app->add_subcommand("new", "write a plugin that works, to be changed into yours");
   describe_app->add_option("id", options.id, "the plugin's id")->required();
+  describe_app->add_option("--page", options.page, "renew the tables of its documentation page")->type_name("FILE.md");
   check_app->add_option("path", options.paths, "libraries, folders of them or build folders; none: all that are found");
   check_app->add_flag("--valgrind", options.valgrind, "also under valgrind: leaks and accesses out of bounds");
   check_app->add_option("--child", options.child)->group("");
@@ -181,6 +182,11 @@ int dispatch(int argc, char** argv) {
   run_app
       ->add_option("--save-problem", run_options.save_problem, "write the labelling problem: .json, .cfn, .wcsp, .uai")
       ->type_name("FILE");
+  CLI::Option* lock =
+      run_app->add_option("--lock", run_options.lock, "write what decides this run to FILE")->type_name("FILE");
+  run_app->add_option("--locked", run_options.locked, "refuse to run when anything differs from FILE, and say what")
+      ->type_name("FILE")
+      ->excludes(lock);
   run_app->add_flag("--json", run_options.json, "print the results as JSON lines");
   add_common(run_app, run_options);
   run_app->callback([&] { code = run(run_options); });

@@ -6,8 +6,11 @@
 
 #include "base/errors.h"
 #include "base/nearest_name.h"
+#include "base/text_file.h"
 #include "commands.h"
+#include "io/mesh_io.h"
 #include "plugin/option_check.h"
+#include "plugin/plugin_page.h"
 #include "session.h"
 
 namespace toposcope::cli {
@@ -77,6 +80,15 @@ int plugins_list(const PluginsOptions& options) {
 int plugins_describe(const PluginsOptions& options) {
   const PluginCatalog catalog = open_catalog(options.plugin_dirs, false);
   const PluginManifest& plugin = find(catalog, options.id);
+  if (!options.page.empty()) {
+    const std::string page = read_text_file(options.page, "page");
+    try {
+      if (const std::string renewed = with_tables(page, plugin); renewed != page) write_file(options.page, renewed);
+    } catch (const UsageError& error) {
+      throw UsageError(options.page.string() + ": " + error.what());
+    }
+    return 0;
+  }
   if (options.json) {
     fmt::print("{}", manifest_to_json(plugin));
     return 0;
