@@ -2,6 +2,7 @@
 # make demo   install what is needed, build, label a cup and classify a tee
 # make test   install what is needed, build, run the tests
 # make pages   renew the tables of options in the plugins' pages
+# make abi    record the plugin ABI of a new version
 # make packages   the Debian packages
 # make evaluate   measure: made and real meshes against their truth, tables in evaluation/
 # make fuzz   fuzz the mesh readers, FUZZ_SECONDS for each format
@@ -11,7 +12,7 @@ TOPOSCOPE := $(BUILD)/bin/toposcope
 # Compiling Eigen and Ceres takes about 1 GB a job.
 JOBS ?= $(shell nproc)
 
-.PHONY: all deps configure demo test packages pages evaluate bench fuzz format lint clean
+.PHONY: all deps configure demo test packages pages abi evaluate bench fuzz format lint clean
 all: configure
 	cmake --build $(BUILD) -j $(JOBS)
 
@@ -39,6 +40,11 @@ pages: configure
 	for page in plugins/*/*/*.md; do \
 	  $(TOPOSCOPE) plugins describe $$(basename $$page .md) --page $$page || exit 1; \
 	done
+
+# Records the layout of the plugin boundary under its version, where there is no record yet.
+abi: configure
+	cmake --build $(BUILD) -j $(JOBS) --target abi_record
+	cmake -DRECORD=$(BUILD)/bin/abi_record -DSOURCE=$(CURDIR) -DWRITE=ON -P abi/abi_test.cmake
 
 # Debian packages: toposcope, toposcope-plugins, libtoposcope-dev, in build/release/packages.
 packages: deps

@@ -25,6 +25,13 @@ install(TARGETS toposcope_api toposcope_geometry toposcope_labeling toposcope_wr
 install(EXPORT ToposcopeTargets NAMESPACE Toposcope:: DESTINATION ${package_dir} COMPONENT sdk)
 install(DIRECTORY ${source_dir}/core/include/toposcope DESTINATION include COMPONENT sdk)
 install(DIRECTORY ${source_dir}/schemas ${source_dir}/templates DESTINATION share/toposcope COMPONENT sdk)
+# The author's pages, in folders as in the tree, so that their links hold.
+set(doc_dir share/doc/libtoposcope-dev)
+install(FILES ${source_dir}/docs/plugins.md ${source_dir}/docs/abi.md ${source_dir}/docs/models.md
+              ${source_dir}/docs/probabilities.md DESTINATION ${doc_dir}/docs COMPONENT sdk)
+install(DIRECTORY ${source_dir}/docs/tutorials DESTINATION ${doc_dir}/docs COMPONENT sdk)
+install(DIRECTORY ${source_dir}/examples DESTINATION ${doc_dir} COMPONENT sdk)
+install(FILES ${source_dir}/MIGRATION.md DESTINATION ${doc_dir} COMPONENT sdk)
 
 include(CMakePackageConfigHelpers)
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/ToposcopeConfigVersion.cmake

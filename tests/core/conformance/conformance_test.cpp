@@ -48,6 +48,7 @@ TEST(Conformance, SoundPluginsOfEveryKindPass) {
 struct Case {
   const char* id;
   const char* verdict;
+  friend void PrintTo(const Case& broken, std::ostream* stream) { *stream << broken.id; }
 };
 
 class BrokenPlugin : public ::testing::TestWithParam<Case> {};
@@ -68,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"option-without-sense", "options: on a ring with part = 0, explains inf"},
         Case{"chokes-on-empty", "degenerate input: on no point, threw: no points"},
         Case{"crashes-on-one-point", "degenerate input: on one point, crashed: Segmentation fault"},
-        Case{"passes-nan-on", "NaN: on a ring with one point that is NaN, gives the measure 'reach'"},
+        Case{"passes-nan-on", "NaN: on a ring with one point that is NaN, gives a usable fit the rms inf"},
         Case{"swallows-exceptions", "exceptions: when a call of its context throws, it swallows"},
         Case{"never-stops", "cancellation: on a torus of 100,000 faces, cancelled before it began, it went"},
         Case{"counts-its-calls", "repeat: on "},

@@ -127,15 +127,17 @@ TEST_F(Lock, OptionsSeedAndPluginsAreNamed) {
 }
 
 TEST_F(Lock, PartsOfAGltfMeshAreLocked) {
-  // A triangle whose positions and indices stand in a file of their own.
-  const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-  std::ofstream(folder / "part.bin", std::ios::binary)
-      .write(reinterpret_cast<const char*>(positions), sizeof positions);
+  // A tetrahedron whose positions stand in a file of their own, three for each face.
+  const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::ofstream part(folder / "part.bin", std::ios::binary);
+  for (const int corner : {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3})
+    part.write(reinterpret_cast<const char*>(corners[corner]), sizeof corners[corner]);
+  part.close();
   const fs::path gltf = folder / "one.gltf";
   write_text(gltf, R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
-    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"uri":"part.bin","byteLength":36}],
-    "bufferViews":[{"buffer":0,"byteLength":36}],
-    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}]})");
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"uri":"part.bin","byteLength":144}],
+    "bufferViews":[{"buffer":0,"byteLength":144}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":12,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}]})");
   const std::string arguments = "run " + gltf.string() + " --model cup -q --json ";
   ASSERT_EQ(program(arguments + "--lock " + lock().string()).exit_code, 0);
   EXPECT_EQ(program(arguments + "--locked " + lock().string()).exit_code, 0);

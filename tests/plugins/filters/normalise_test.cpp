@@ -262,6 +262,7 @@ TEST(Normalise, OneTriangleAndASurfaceWithoutAreaComeBack) {
     soup.positions = {{0, 0, 0}, {1, 0, 0}, top};
     soup.triangles = {{0, 1, 2}};
     soup.face_origin = {0};
+    soup.input_faces = 1;
     return soup;
   };
   EXPECT_LE(filtered("normalise", single({0.2, 0.9, 0}), {}).mesh.triangles.size(), 8u);
