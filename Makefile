@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # make demo   install what is needed, build, label a cup and classify a tee
 # make test   install what is needed, build, run the tests
+# make pages   renew the tables of options in the plugins' pages
+# make abi    record the plugin ABI of a new version
+# make packages   the Debian packages
 # make evaluate   measure: made and real meshes against their truth, tables in evaluation/
 # make screenshots   pictures of reports for the docs
 # make fuzz   fuzz the mesh readers, FUZZ_SECONDS for each format
@@ -10,7 +13,7 @@ TOPOSCOPE := $(BUILD)/bin/toposcope
 # Compiling Eigen and Ceres takes about 1 GB a job.
 JOBS ?= $(shell nproc)
 
-.PHONY: all deps configure demo test evaluate screenshots bench fuzz format lint clean
+.PHONY: all deps configure demo test packages pages abi evaluate screenshots bench fuzz format lint clean
 all: configure
 	cmake --build $(BUILD) -j $(JOBS)
 
@@ -31,6 +34,26 @@ demo: configure
 
 test: all
 	ctest --preset $(PRESET) -j $(JOBS)
+
+# The tables of options in the plugins' pages, from their descriptors; a test fails where they differ.
+pages: configure
+	cmake --build $(BUILD) -j $(JOBS) --target program
+	for page in plugins/*/*/*.md; do \
+	  $(TOPOSCOPE) plugins describe $$(basename $$page .md) --page $$page || exit 1; \
+	done
+
+# Records the layout of the plugin boundary under its version, where there is no record yet.
+abi: configure
+	cmake --build $(BUILD) -j $(JOBS) --target abi_record
+	cmake -DRECORD=$(BUILD)/bin/abi_record -DSOURCE=$(CURDIR) -DWRITE=ON -P abi/abi_test.cmake
+
+# Debian packages: toposcope, toposcope-plugins, libtoposcope-dev, in build/release/packages.
+packages: deps
+	@./scripts/install-deps dpkg-dev file
+	@mkdir -p build
+	@cmake --preset release > build/release.log 2>&1 || { cat build/release.log; exit 1; }
+	cmake --build build/release -j $(JOBS) --target program
+	cd build/release && cpack -G DEB
 
 SETS := $(addprefix datasets/,$(addsuffix .yaml,five-cups five-fittings three-airplanes psb-cups psb-airplanes \
   real-fittings raw-fittings resolution noise random-cups random-fittings random-airplanes))

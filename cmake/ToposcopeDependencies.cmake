@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Third-party libraries that plugins link, as targets under our own names.
+# Third-party libraries that bring no CMake package, as targets under our own names.
 
 # Debian's Ceres::ceres is the static library and adds 3.8 MB to every plugin that links it: take the shared one.
 if(NOT TARGET Toposcope::ceres_shared)
@@ -22,4 +22,14 @@ if(NOT TARGET Toposcope::nlopt)
   set_target_properties(Toposcope::nlopt PROPERTIES
     IMPORTED_LOCATION ${TOPOSCOPE_NLOPT_LIBRARY}
     INTERFACE_INCLUDE_DIRECTORIES ${TOPOSCOPE_NLOPT_INCLUDE_DIR})
+endif()
+
+# Hash functions; a library that Debian's own dpkg links.
+if(NOT TARGET Toposcope::md)
+  find_library(TOPOSCOPE_MD_LIBRARY NAMES libmd.so REQUIRED)
+  find_path(TOPOSCOPE_MD_INCLUDE_DIR sha2.h REQUIRED)
+  add_library(Toposcope::md SHARED IMPORTED GLOBAL)
+  set_target_properties(Toposcope::md PROPERTIES
+    IMPORTED_LOCATION ${TOPOSCOPE_MD_LIBRARY}
+    INTERFACE_INCLUDE_DIRECTORIES ${TOPOSCOPE_MD_INCLUDE_DIR})
 endif()

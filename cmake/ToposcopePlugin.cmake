@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
-# toposcope_add_plugin(KIND ID [LIBRARIES lib...])
-# Builds <ID>.cpp of the present folder as a plugin library, writes its manifest from the compiled descriptor beside it
-# and installs both. KIND is worksets, shapes, relations, labelers or filters; ID is the plugin's id. Further files:
-# target_sources(plugin_<KIND>_<ID> PRIVATE ...). Serves this tree and, through find_package(Toposcope), yours.
+# toposcope_add_plugin(KIND ID [LIBRARIES lib...] [SOURCES file...])
+# Builds <ID>.cpp of the present folder, and further SOURCES, as a plugin library, writes its manifest from the compiled
+# descriptor beside it and installs both. KIND is worksets, shapes, relations, labelers or filters; ID is the plugin's id.
+# The target is plugin_<KIND>_<ID>. Serves this tree and, through find_package(Toposcope), yours.
 function(toposcope_add_plugin kind id)
-  cmake_parse_arguments(arg "" "" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "LIBRARIES;SOURCES" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "toposcope_add_plugin(${kind} ${id}): unknown arguments ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -15,7 +15,7 @@ function(toposcope_add_plugin kind id)
   endif()
   set(map ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/plugin.map)
   set(target plugin_${kind}_${id})
-  add_library(${target} MODULE ${id}.cpp)
+  add_library(${target} MODULE ${id}.cpp ${arg_SOURCES})
   target_compile_features(${target} PRIVATE cxx_std_20)
   # Results must be the same on every run and machine of one architecture.
   target_compile_options(${target} PRIVATE -ffp-contract=off)
@@ -30,6 +30,24 @@ function(toposcope_add_plugin kind id)
     COMMAND Toposcope::write_manifest ${kind} ${id} $<TARGET_FILE:${target}>
     BYPRODUCTS ${CMAKE_BINARY_DIR}/plugins/${kind}/${id}.plugin.json)
   set_property(GLOBAL APPEND PROPERTY TOPOSCOPE_PLUGIN_TARGETS ${target})
-  install(TARGETS ${target} LIBRARY DESTINATION lib/toposcope/plugins/${kind})
-  install(FILES ${CMAKE_BINARY_DIR}/plugins/${kind}/${id}.plugin.json DESTINATION lib/toposcope/plugins/${kind})
+  install(TARGETS ${target} LIBRARY DESTINATION lib/toposcope/plugins/${kind} COMPONENT plugins)
+  install(FILES ${CMAKE_BINARY_DIR}/plugins/${kind}/${id}.plugin.json
+    DESTINATION lib/toposcope/plugins/${kind} COMPONENT plugins)
+endfunction()
+
+# toposcope_add_plugin_test(KIND ID)
+# For a plugin of toposcope_add_plugin: builds <ID>_test.cpp (toposcope/plugin_test.h) and adds two tests, <ID>, which
+# runs it with the plugin's library as its argument, and <ID>_check, which runs `toposcope plugins check` on the library.
+function(toposcope_add_plugin_test kind id)
+  set(plugin plugin_${kind}_${id})
+  add_executable(${plugin}_test ${id}_test.cpp)
+  target_compile_features(${plugin}_test PRIVATE cxx_std_20)
+  target_link_libraries(${plugin}_test PRIVATE Toposcope::geometry Toposcope::labeling ${CMAKE_DL_LIBS})
+  add_dependencies(${plugin}_test ${plugin})
+  add_test(NAME ${id} COMMAND ${plugin}_test $<TARGET_FILE:${plugin}>)
+  if(Toposcope_PROGRAM)
+    add_test(NAME ${id}_check COMMAND ${Toposcope_PROGRAM} plugins check $<TARGET_FILE:${plugin}>)
+  else()
+    message(STATUS "the program toposcope was not found: test ${id}_check is left out")
+  endif()
 endfunction()

@@ -29,6 +29,7 @@ struct RunOptions : CommonOptions {
   fs::path out;
   fs::path save_problem;  ///< empty: not written
   bool report = true;
+  fs::path lock, locked;  ///< write a lock file; refuse a run that differs from one
 };
 
 struct ReportOptions {
@@ -84,9 +85,13 @@ struct ModelOptions {
 
 struct PluginsOptions {
   std::vector<fs::path> plugin_dirs;
-  std::string id;
+  std::string kind, id;
   std::vector<fs::path> paths;
   bool json = false;
+  fs::path page;          ///< describe: the documentation page whose tables to renew
+  bool valgrind = false;  ///< check: for errors of memory too
+  fs::path child;         ///< check: the library to examine in this process; for the program itself
+  bool brief = false;
 };
 
 struct SampleOptions : CommonOptions {
@@ -131,6 +136,7 @@ int model_check(const ModelOptions& options);
 int model_show(const ModelOptions& options);
 int plugins_list(const PluginsOptions& options);
 int plugins_describe(const PluginsOptions& options);
+int plugins_new(const PluginsOptions& options);
 int plugins_check(const PluginsOptions& options);
 int report(const ReportOptions& options);
 int export_results(const ExportOptions& options);

@@ -205,6 +205,29 @@ void add_render(CLI::App& app, RenderOptions& options, int& code) {
   render_app->callback([&] { code = render(options); });
 }
 
+void add_plugins(CLI::App& app, PluginsOptions& options, int& code) {
+  CLI::App* plugins_app = app.add_subcommand("plugins", "list, describe, check or begin plugins");
+  plugins_app->require_subcommand(1);
+  CLI::App* list_app = plugins_app->add_subcommand("list", "all plugins that can be found");
+  CLI::App* describe_app = plugins_app->add_subcommand("describe", "a plugin's options and what it provides");
+  CLI::App* check_app = plugins_app->add_subcommand("check", "hold plugins against what every plugin of its kind owes");
+  CLI::App* new_app = plugins_app->add_subcommand("new", "write a plugin that works, to be changed into yours");
+  describe_app->add_option("id", options.id, "the plugin's id")->required();
+  describe_app->add_option("--page", options.page, "renew the tables of its documentation page")->type_name("FILE.md");
+  check_app->add_option("path", options.paths, "libraries, folders of them or build folders; none: all that are found");
+  check_app->add_flag("--valgrind", options.valgrind, "also under valgrind: leaks and accesses out of bounds");
+  check_app->add_option("--child", options.child)->group("");
+  check_app->add_flag("--brief", options.brief)->group("");
+  for (CLI::App* sub : {list_app, describe_app, check_app}) sub->add_flag("--json", options.json, "print JSON");
+  for (CLI::App* sub : {list_app, describe_app, check_app, new_app}) add_plugin_dirs(sub, options.plugin_dirs);
+  new_app->add_option("kind", options.kind, "workset, shape, relation, labeler or filter")->required();
+  new_app->add_option("name", options.id, "the plugin's id and folder: lower-case words joined by '-'")->required();
+  list_app->callback([&] { code = plugins_list(options); });
+  describe_app->callback([&] { code = plugins_describe(options); });
+  check_app->callback([&] { code = plugins_check(options); });
+  new_app->callback([&] { code = plugins_new(options); });
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Finds, names and measures the features of a class of objects on triangle meshes.", "toposcope"};
   app.set_version_flag("--version", TOPOSCOPE_VERSION);
@@ -225,6 +248,11 @@ int dispatch(int argc, char** argv) {
   run_app
       ->add_option("--save-problem", run_options.save_problem, "write the labelling problem: .json, .cfn, .wcsp, .uai")
       ->type_name("FILE");
+  CLI::Option* lock =
+      run_app->add_option("--lock", run_options.lock, "write what decides this run to FILE")->type_name("FILE");
+  run_app->add_option("--locked", run_options.locked, "refuse to run when anything differs from FILE, and say what")
+      ->type_name("FILE")
+      ->excludes(lock);
   run_app->add_flag("--json", run_options.json, "print the results as JSON lines");
   add_common(run_app, run_options);
   run_app->callback([&] { code = run(run_options); });
@@ -315,20 +343,7 @@ int dispatch(int argc, char** argv) {
   model_show_app->callback([&] { code = model_show(model_options); });
 
   PluginsOptions plugins_options;
-  CLI::App* plugins_app = app.add_subcommand("plugins", "list, describe or check plugins");
-  plugins_app->require_subcommand(1);
-  CLI::App* list_app = plugins_app->add_subcommand("list", "all plugins that can be found");
-  CLI::App* describe_app = plugins_app->add_subcommand("describe", "a plugin's options and what it provides");
-  CLI::App* check_app = plugins_app->add_subcommand("check", "load plugins and report what is wrong with them");
-  describe_app->add_option("id", plugins_options.id, "the plugin's id")->required();
-  check_app->add_option("path", plugins_options.paths, "libraries or folders; without any, all that can be found");
-  for (CLI::App* sub : {list_app, describe_app, check_app}) {
-    add_plugin_dirs(sub, plugins_options.plugin_dirs);
-    sub->add_flag("--json", plugins_options.json, "print JSON");
-  }
-  list_app->callback([&] { code = plugins_list(plugins_options); });
-  describe_app->callback([&] { code = plugins_describe(plugins_options); });
-  check_app->callback([&] { code = plugins_check(plugins_options); });
+  add_plugins(app, plugins_options, code);
 
   try {
     app.parse(argc, argv);

@@ -6,8 +6,11 @@
 
 #include "base/errors.h"
 #include "base/nearest_name.h"
+#include "base/text_file.h"
 #include "commands.h"
+#include "io/mesh_io.h"
 #include "plugin/option_check.h"
+#include "plugin/plugin_page.h"
 #include "session.h"
 
 namespace toposcope::cli {
@@ -77,6 +80,15 @@ int plugins_list(const PluginsOptions& options) {
 int plugins_describe(const PluginsOptions& options) {
   const PluginCatalog catalog = open_catalog(options.plugin_dirs, false);
   const PluginManifest& plugin = find(catalog, options.id);
+  if (!options.page.empty()) {
+    const std::string page = read_text_file(options.page, "page");
+    try {
+      if (const std::string renewed = with_tables(page, plugin); renewed != page) write_file(options.page, renewed);
+    } catch (const UsageError& error) {
+      throw UsageError(options.page.string() + ": " + error.what());
+    }
+    return 0;
+  }
   if (options.json) {
     fmt::print("{}", manifest_to_json(plugin));
     return 0;
@@ -90,41 +102,6 @@ int plugins_describe(const PluginsOptions& options) {
   print_table("options, set in the pipeline or by --set", plugin.options);
   print_table("arguments, given in the model", plugin.arguments);
   return 0;
-}
-
-int plugins_check(const PluginsOptions& options) {
-  std::vector<PluginFolder> folders;
-  for (const fs::path& path : options.paths) {
-    if (!fs::exists(path)) throw UsageError(path.string() + ": no such file or folder");
-    folders.push_back({fs::absolute(fs::is_directory(path) ? path : path.parent_path()), true});
-  }
-  if (folders.empty()) folders = plugin_search_path(options.plugin_dirs);
-  PluginHost host{PluginCatalog(folders)};
-  int bad = 0, good = 0;
-  for (const PluginProblem& problem : host.catalog().problems()) {
-    fmt::print("FAIL  {}\n", problem.message);
-    ++bad;
-  }
-  for (PluginKind kind : kinds)
-    for (const PluginManifest* plugin : host.catalog().all(kind)) {
-      const bool asked =
-          options.paths.empty() || std::any_of(options.paths.begin(), options.paths.end(), [&](const fs::path& path) {
-            return fs::is_directory(path) || fs::absolute(path).stem() == plugin->library.stem();
-          });
-      if (!asked) continue;
-      try {
-        host.load(kind, plugin->id);
-        fmt::print("ok    {} {} ({}): {}{}\n", plugin->id, plugin->version, to_string(kind), plugin->library.string(),
-                   availability(*plugin));
-        ++good;
-      } catch (const Error& error) {
-        fmt::print("FAIL  {}\n", error.what());
-        ++bad;
-      }
-    }
-  fmt::print("{} usable, {} not\n", good, bad);
-  if (good + bad == 0) throw UsageError("no plugin found; give libraries or folders that hold <id>.plugin.json files");
-  return bad == 0 ? 0 : 4;
 }
 
 }  // namespace toposcope::cli

@@ -75,6 +75,12 @@ std::string page_missing() {
          "or name the folder that has it in TOPOSCOPE_DATA_PATH";
 }
 
+fs::path find_resource_folder(const std::string& kind, std::string_view name) {
+  for (const fs::path& folder : folders(kind))
+    if (fs::is_directory(folder / name)) return folder / name;
+  return {};
+}
+
 std::vector<fs::path> find_models(const std::string& folder_or_list) {
   if (folder_or_list.find('/') != std::string::npos && fs::is_directory(folder_or_list)) {
     std::vector<fs::path> files = yaml_files(folder_or_list);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace toposcope::cli {
@@ -13,6 +14,10 @@ namespace toposcope::cli {
 /// \param kind  "models" or "pipelines"
 /// \throw UsageError  not found, with what there is
 std::filesystem::path find_resource(const std::string& kind, const std::string& name);
+
+/// The folder `name` of a kind, in the same places: find_resource_folder("templates", "shapes"). Empty where there is
+/// none.
+std::filesystem::path find_resource_folder(const std::string& kind, std::string_view name);
 
 /// The models of a folder (with a '/' in its name), or of a list of names separated by commas.
 std::vector<std::filesystem::path> find_models(const std::string& folder_or_list);

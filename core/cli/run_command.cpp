@@ -6,6 +6,7 @@
 #include "base/errors.h"
 #include "commands.h"
 #include "io/mesh_io.h"
+#include "lock/run_lock.h"
 #include "model/read_model.h"
 #include "output_folder.h"
 #include "problem/problem_io.h"
@@ -42,6 +43,17 @@ std::optional<Truth> truth_if_any(const fs::path& mesh, Context& context) {
   }
 }
 
+/// Before any plugin is loaded and any mesh is read.
+void lock_or_compare(const RunOptions& options, PipelineSession& session, const Model& model) {
+  if (options.lock.empty() && options.locked.empty()) return;
+  const RunLock now =
+      lock_run(TOPOSCOPE_VERSION, options.seed, session.pipeline(), model, options.meshes, session.host().catalog());
+  if (options.locked.empty())
+    write_file(options.lock, to_json(now));
+  else
+    require_same(read_lock(options.locked), now, options.locked);
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -55,6 +67,7 @@ int run(const RunOptions& options) {
   if (!options.save_problem.empty()) require_problem_extension(options.save_problem);
   PipelineSession session(options);
   const Model model = read_model(find_resource("models", options.model), &session.host().catalog());
+  lock_or_compare(options, session, model);
   const Stations stations = session.stations(model);
 
   std::optional<Page> page;

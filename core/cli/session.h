@@ -40,6 +40,7 @@ class Session {
 class PipelineSession : public Session {
  public:
   explicit PipelineSession(const CommonOptions& options);
+  const PipelineManifest& pipeline() const { return pipeline_; }
   Stations stations(const Model& model) { return make_stations(host(), pipeline_, model); }
 
  private:

@@ -24,8 +24,10 @@ PluginCatalog::PluginCatalog(const std::vector<PluginFolder>& folders) {
                        path.string()),
            ""});
     } else if (fs::is_directory(path, ignored)) {
-      scan(path);
-      for (const PluginKind kind : plugin_kinds) scan(path / to_string(kind));
+      for (const fs::path& top : {path, path / "plugins"}) {
+        scan(top);
+        for (const PluginKind kind : plugin_kinds) scan(top / to_string(kind));
+      }
     } else if (required) {
       problems_.push_back(
           {path, fmt::format("plugin folder '{}' does not exist; correct it or leave it out", path.string()), ""});

@@ -10,15 +10,15 @@
 
 namespace toposcope {
 
-/// A folder to scan for manifests: itself and its subfolders worksets, shapes, relations, labelers, filters.
+/// To scan for manifests: itself, its subfolder `plugins` (of a build folder), and worksets, shapes ... under both.
 struct PluginFolder {
   std::filesystem::path path;
   bool required = false;  ///< the user named it: it is a problem when it is absent
 };
 
 /// The search path: beside the executable (<folder>/../plugins), the install prefix
-/// (<folder>/../lib/toposcope/plugins), the absolute folders in TOPOSCOPE_PLUGIN_PATH (separated by ':'), then those of
-/// --plugin-dir. Never the working directory.
+/// (<folder>/../lib/toposcope/plugins), the folders in TOPOSCOPE_PLUGIN_PATH (separated by ':'), then those of
+/// --plugin-dir. Never the working directory, unless --plugin-dir names it.
 std::vector<PluginFolder> plugin_search_path(const std::vector<std::filesystem::path>& plugin_dirs = {});
 
 /// Why a plugin is not in the catalog.

@@ -6,6 +6,7 @@
 
 #include "base/errors.h"
 #include "plugin/option_check.h"
+#include "plugin/plugin_id.h"
 #include "toposcope/plugin.h"
 #include "toposcope/programs.h"
 
@@ -14,12 +15,6 @@ namespace {
 
 bool is_lower_or_digit(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-}
-
-/// Lower-case words joined by '-'.
-bool is_id(std::string_view id) {
-  if (id.empty() || id.front() == '-' || id.back() == '-' || id.find("--") != id.npos) return false;
-  return std::all_of(id.begin(), id.end(), [](char c) { return is_lower_or_digit(c) || c == '-'; });
 }
 
 /// x.y.z
@@ -118,6 +113,11 @@ std::optional<PluginKind> plugin_kind(std::string_view name) {
   return std::nullopt;
 }
 
+bool is_plugin_id(std::string_view id) {
+  if (id.empty() || id.front() == '-' || id.back() == '-' || id.find("--") != id.npos) return false;
+  return std::all_of(id.begin(), id.end(), [](char c) { return is_lower_or_digit(c) || c == '-'; });
+}
+
 const ProvidedRow* PluginManifest::find_provided(std::string_view name) const {
   const auto matches = [name](std::string_view pattern) {
     const std::size_t mark = pattern.find('#');
@@ -168,7 +168,7 @@ PluginManifest manifest_from_descriptor(const PluginDescriptor& descriptor) {
 }
 
 void check_manifest(const PluginManifest& manifest) {
-  if (!is_id(manifest.id))
+  if (!is_plugin_id(manifest.id))
     throw UsageError("id '" + manifest.id + "': an id is lower-case words joined by '-', such as line-group");
   if (!is_version(manifest.version))
     throw UsageError("version '" + manifest.version + "': a version is three numbers, such as 1.0.0");

@@ -18,6 +18,10 @@ using namespace toposcope::normalise;
 constexpr Index most_faces = 100000000;
 // Rounds that may be added while there are too many faces.
 constexpr int more_rounds = 20;
+// Of a mesh whose edges are longer than the surface has room for.
+constexpr double fewest_faces = 4;
+// Of the squared diagonal: needles and folded faces have no edges of any wanted length.
+constexpr double least_area = 1e-8;
 // Changes are measured at samples; between them the shape may have changed somewhat more.
 constexpr double at_samples = 0.7;
 
@@ -36,18 +40,22 @@ class Normalise final : public MeshFilter {
 
   void apply(const MeshView& mesh, Context& context, MeshSink& sink) const override {
     Goal goal = make_goal(mesh);
+    if (!(goal.edge * goal.edge * goal.faces > least_area * mesh.box.diagonal() * mesh.box.diagonal())) {
+      context.log(LogLevel::warning, "normalise: the surface has no area to speak of; it is left alone");
+      return;
+    }
     const InputSurface surface(mesh, crease_angle_, goal.edge);
     // The shape changes by no more than the number of faces demands: at first collapses by a tenth of an edge, flips
     // and moves by half of that.
     Limits limits{1.5 * goal.edge, std::min(goal.max_change, 0.1 * goal.edge), 0.2};
     Resampler work(surface, goal, limits.change / 2);
-    work.split_long(4.0 / 3 * goal.edge, most_faces);
+    work.split_long(4.0 / 3 * goal.edge, most_faces, context);
     work.carry_samples();
     int left = rounds_;
     for (int round = 0; left > 0 && round < rounds_ + more_rounds && !context.cancelled(); ++round) {
       context.progress(static_cast<double>(round) / (rounds_ + 1));
       work.collapse(goal.faces, limits, context);
-      work.split_long(0, goal.faces - 1);
+      work.split_long(0, goal.faces - 1, context);
       work.flip();
       work.relax(context);
       if (work.mesh().faces() > goal.faces && round > 0) {
@@ -61,9 +69,9 @@ class Normalise final : public MeshFilter {
       if (left == rounds_ / 2 && faces_ == 0) {
         // Edges that vary are longer in the mean than equal ones on the same area.
         const double ratio = work.mean_edge() / wanted_edge(mesh);
-        goal.faces = static_cast<Index>(std::round(goal.faces * ratio * ratio));
+        goal.faces = static_cast<Index>(std::max(fewest_faces, std::round(goal.faces * ratio * ratio)));
       }
-      if (left > 2) work.split_long(1.4 * goal.edge, 2 * goal.faces);
+      if (left > 2) work.split_long(1.4 * goal.edge, 2 * goal.faces, context);
     }
     if (work.mesh().faces() > 1.03 * goal.faces)
       context.log(
@@ -85,7 +93,7 @@ class Normalise final : public MeshFilter {
     Goal goal{faces_, 0, at_samples * max_change_ * mesh.box.diagonal(), shape_weight_};
     const double edge = wanted_edge(mesh);
     if (faces_ == 0)
-      goal.faces = static_cast<Index>(std::max(4.0, std::round(4 / std::sqrt(3.0) * area / (edge * edge))));
+      goal.faces = static_cast<Index>(std::max(fewest_faces, std::round(4 / std::sqrt(3.0) * area / (edge * edge))));
     goal.edge = std::sqrt(4 / std::sqrt(3.0) * area / goal.faces);
     return goal;
   }

@@ -52,7 +52,7 @@ void Resampler::take_faces_around(Index v) {
   });
 }
 
-void Resampler::split_long(double longest, Index most_faces) {
+void Resampler::split_long(double longest, Index most_faces, const Context& context) {
   std::priority_queue<std::pair<double, Index>> queue;  // equal lengths: the greater half-edge first
   const auto push = [&](Index h) {
     const Index edge = std::min(h, mesh_.opposite[h]);
@@ -60,7 +60,8 @@ void Resampler::split_long(double longest, Index most_faces) {
   };
   for (Index h = 0; h < mesh_.start.size(); ++h)
     if (mesh_.stands_for_edge(h)) push(h);
-  while (!queue.empty() && mesh_.faces() < most_faces) {
+  for (std::size_t split = 0; !queue.empty() && mesh_.faces() < most_faces; ++split) {
+    if (split % 256 == 0 && context.cancelled()) return;
     const auto [length, h] = queue.top();
     queue.pop();
     if (length != mesh_.length(h)) continue;  // split since

@@ -37,7 +37,7 @@ class Resampler {
   void set_free_change(double free_change) { free_change_ = free_change; }
 
   /// Splits the edges longer than `longest`, longest first, while there are fewer than `most_faces`.
-  void split_long(double longest, Index most_faces);
+  void split_long(double longest, Index most_faces, const Context& context);
   /// From here on every operation measures its shape change.
   void carry_samples();
   /// Collapses edges, those first that cost the least length and shape, while there are more than `least_faces`

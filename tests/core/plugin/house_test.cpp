@@ -11,6 +11,8 @@
 #include <iterator>
 #include <vector>
 
+#include "base/errors.h"
+#include "plugin/plugin_page.h"
 #include "support/plugins.h"
 #include "toposcope/plugin.h"
 
@@ -74,6 +76,23 @@ TEST(PluginHouse, EveryPluginIsBuiltAndLoads) {
     EXPECT_NO_THROW(test::host().load(kind, id)) << path << " is not in the build, or cannot be loaded";
   for (const PluginProblem& problem : test::host().catalog().problems())
     ADD_FAILURE() << problem.file << ": " << problem.message;
+}
+
+TEST(PluginHouse, PagesTellWhatTheDescriptorsSay) {
+  int tables = 0;
+  for (const auto& [kind, id, path] : source_folders()) {
+    const fs::path file = path / (id + ".md");
+    std::ifstream stream(file);
+    const std::string page(std::istreambuf_iterator<char>(stream), {});
+    try {
+      EXPECT_EQ(page, with_tables(page, test::host().catalog().require(kind, id)))
+          << file << ": `make pages` renews it";
+      tables += page.find("<!-- table: options -->") != page.npos;
+    } catch (const UsageError& error) {
+      ADD_FAILURE() << file << ": " << error.what();
+    }
+  }
+  EXPECT_GT(tables, 0);
 }
 
 TEST(PluginHouse, EveryLibraryExportsOneSymbol) {

@@ -255,4 +255,20 @@ TEST(Normalise, RealMeshes) {
   }
 }
 
+/// There is no room for an edge of the wanted length: the goal may not fall to no face at all.
+TEST(Normalise, OneTriangleAndASurfaceWithoutAreaComeBack) {
+  const auto single = [](const Vec3& top) {
+    TriangleSoup soup;
+    soup.positions = {{0, 0, 0}, {1, 0, 0}, top};
+    soup.triangles = {{0, 1, 2}};
+    soup.face_origin = {0};
+    soup.input_faces = 1;
+    return soup;
+  };
+  EXPECT_LE(filtered("normalise", single({0.2, 0.9, 0}), {}).mesh.triangles.size(), 8u);
+  Listening listening;
+  EXPECT_FALSE(filtered("normalise", single({0.5, 0, 0}), {}, listening.context).called);
+  EXPECT_EQ(listening.warnings.size(), 1u);
+}
+
 }  // namespace

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "conformance/verdict.h"
+
+namespace toposcope::cli {
+
+/// Runs the conformance kit on one plugin in a process of its own, so that a crash is a verdict and not the end.
+std::vector<Verdict> examine_in_process(const std::filesystem::path& library);
+
+/// The same inputs once more under valgrind: one verdict, "memory"; skipped where valgrind is not installed.
+Verdict examine_memory(const std::filesystem::path& library);
+
+/// The other end: examines in this process and reports to file descriptor 3. \return the exit code
+int examine_here(const std::filesystem::path& library, bool brief);
+
+}  // namespace toposcope::cli

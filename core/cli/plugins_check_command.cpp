@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/errors.h"
+#include "check_process.h"
+#include "commands.h"
+#include "plugin/catalog.h"
+#include "plugin/library.h"
+
+namespace toposcope::cli {
+namespace {
+
+/// A plugin that was asked for, as far as its files tell.
+struct Checked {
+  std::string id, version, kind;
+  fs::path library;
+  std::vector<Verdict> verdicts;
+
+  bool passes() const {
+    return std::none_of(verdicts.begin(), verdicts.end(),
+                        [](const Verdict& v) { return v.outcome == Outcome::failed; });
+  }
+};
+
+Checked of_library(const fs::path& library) {
+  Checked checked{library.stem().string(), "", "", library, {}};
+  try {
+    const PluginManifest manifest = read_manifest(fs::path(library).replace_extension() += manifest_suffix);
+    checked.version = manifest.version;
+    checked.kind = to_string(manifest.kind);
+  } catch (const Error&) {
+    // The kit says what is wrong with it.
+  }
+  return checked;
+}
+
+/// Everything that the paths name: a library, or a folder with manifests.
+std::vector<Checked> collect(const PluginsOptions& options) {
+  std::vector<Checked> all;
+  std::vector<PluginFolder> folders;
+  for (const fs::path& path : options.paths) {
+    if (!fs::exists(path)) throw UsageError(path.string() + ": no such file or folder");
+    if (fs::is_directory(path))
+      folders.push_back({fs::absolute(path), true});
+    else
+      all.push_back(of_library(path));
+  }
+  if (options.paths.empty()) folders = plugin_search_path(options.plugin_dirs);
+  const PluginCatalog catalog(folders);
+  for (const PluginProblem& problem : catalog.problems())
+    all.push_back({problem.id.empty() ? problem.file.string() : problem.id,
+                   "",
+                   "",
+                   problem.file,
+                   {{"manifest", Outcome::failed, problem.message}}});
+  for (const PluginKind kind : plugin_kinds)
+    for (const PluginManifest* plugin : catalog.all(kind))
+      all.push_back({plugin->id, plugin->version, std::string(to_string(kind)), plugin->library, {}});
+  if (all.empty())
+    throw UsageError("no plugin found; give libraries, or folders that hold libraries and <id>.plugin.json files");
+  return all;
+}
+
+const char* word(Outcome outcome) {
+  return outcome == Outcome::passed ? "ok" : outcome == Outcome::failed ? "FAIL" : "skip";
+}
+
+void print(const Checked& plugin) {
+  fmt::print("{}{}{}{}\n", plugin.id, plugin.version.empty() ? "" : " " + plugin.version,
+             plugin.kind.empty() ? "" : " (" + plugin.kind + ")", ": " + plugin.library.string());
+  for (const Verdict& verdict : plugin.verdicts)
+    fmt::print("  {:<5} {:<17} {}\n", word(verdict.outcome), verdict.check, verdict.detail);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int plugins_check(const PluginsOptions& options) {
+  if (!options.child.empty()) return examine_here(options.child, options.brief);
+  std::vector<Checked> plugins = collect(options);
+  nlohmann::ordered_json root = {{"plugins", nlohmann::json::array()}};
+  std::size_t good = 0;
+  for (Checked& plugin : plugins) {
+    if (plugin.verdicts.empty()) {
+      plugin.verdicts = examine_in_process(fs::absolute(plugin.library));
+      if (options.valgrind && plugin.passes()) plugin.verdicts.push_back(examine_memory(fs::absolute(plugin.library)));
+    }
+    good += plugin.passes() ? 1 : 0;
+    if (!options.json) {
+      print(plugin);
+      continue;
+    }
+    nlohmann::ordered_json checks = nlohmann::json::array();
+    for (const Verdict& verdict : plugin.verdicts)
+      checks.push_back({{"check", verdict.check}, {"outcome", word(verdict.outcome)}, {"detail", verdict.detail}});
+    root["plugins"].push_back({{"id", plugin.id},
+                               {"version", plugin.version},
+                               {"kind", plugin.kind},
+                               {"library", plugin.library.string()},
+                               {"passes", plugin.passes()},
+                               {"checks", checks}});
+  }
+  if (options.json)
+    fmt::print("{}\n", root.dump(1));
+  else
+    fmt::print("{} pass, {} fail\n", good, plugins.size() - good);
+  return good == plugins.size() ? 0 : 4;
+}
+
+}  // namespace toposcope::cli

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The program labels an oval can by both plugins and measures it; run with -DMAKE_CAN -DPROGRAM -DSOURCE -DBUILD.
+set(mesh ${BUILD}/oval-can.off)
+execute_process(COMMAND ${MAKE_CAN} ${mesh} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${PROGRAM} run ${mesh} --model ${SOURCE}/models/oval-can.yaml --pipeline
+  ${SOURCE}/pipelines/watershed.yaml --plugin-dir ${BUILD} --json OUTPUT_VARIABLE result COMMAND_ERROR_IS_FATAL ANY)
+foreach(feature top bottom)
+  string(JSON present GET "${result}" features ${feature} present)
+  if(NOT present)
+    message(FATAL_ERROR "${feature} was not found: ${result}")
+  endif()
+  string(JSON probability GET "${result}" features ${feature} probability)
+  string(JSON major GET "${result}" features ${feature} parameters semi_major)
+  string(JSON minor GET "${result}" features ${feature} parameters semi_minor)
+  message(STATUS "${feature}: semi-axes ${major}, ${minor}; probability ${probability}")
+  # The truth is 40 and 26; an edge is 1.7 long.
+  if(major LESS 39.6 OR major GREATER 40.4 OR minor LESS 25.6 OR minor GREATER 26.4)
+    message(FATAL_ERROR "${feature}: semi-axes ${major}, ${minor}, not 40 and 26 within a quarter of an edge")
+  endif()
+  if(probability LESS 0.9)
+    message(FATAL_ERROR "${feature}: probability ${probability}")
+  endif()
+endforeach()
+string(JSON lid GET "${result}" features lid present)
+if(NOT lid)
+  message(FATAL_ERROR "the lid was not found")
+endif()
+# The report says which plugins made it.
+foreach(id watershed ellipse)
+  if(NOT result MATCHES "\"id\": *\"${id}\"")
+    message(FATAL_ERROR "the result does not name plugin ${id}")
+  endif()
+endforeach()

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# One plugin compiled in other ways than the program: with -mavx2 it works, as a debug build or with debug containers it is
+# refused by its fingerprint, with the headers of an older minor it works, with those of a newer one it is refused. Never a
+# crash. Needs -DCXX.
+include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
+set(here ${folder}/variants)
+file(REMOVE_RECURSE ${here})
+file(MAKE_DIRECTORY ${here})
+check(${CMAKE_COMMAND} -E chdir ${here} ${program} plugins new shape odd)
+separate_arguments(flags UNIX_COMMAND "${FLAGS}")
+file(GLOB_RECURSE library_files ${prefix}/lib*/libtoposcope_*.a)
+# As the program was built.
+set(same -std=c++20 -fPIC -fvisibility=hidden -ffp-contract=off -O2)
+if(BUILD_TYPE MATCHES "Rel")
+  list(APPEND same -DNDEBUG)
+endif()
+
+# compile(NAME HEADERS FLAG...) makes NAME/odd.so.
+function(compile name headers)
+  file(MAKE_DIRECTORY ${here}/${name})
+  check(${CXX} -shared ${flags} ${same} -isystem /usr/include/eigen3 -I${headers} ${ARGN} ${here}/odd/odd.cpp
+    ${library_files} -o ${here}/${name}/odd.so)
+endfunction()
+set(writer ${prefix}/lib/toposcope/toposcope_write_manifest)
+
+compile(plain ${prefix}/include)
+check(${writer} shapes odd ${here}/plain/odd.so)
+check(${program} plugins check ${here}/plain)
+expect_text("1 pass, 0 fail")
+
+compile(avx2 ${prefix}/include -mavx2 -mfma)
+check(${writer} shapes odd ${here}/avx2/odd.so)
+file(READ /proc/cpuinfo processor)
+if(processor MATCHES " avx2 ")
+  check(${program} plugins check ${here}/avx2)
+  expect_text("1 pass, 0 fail")
+else()
+  message(NOTICE "NOT CHECKED: this processor has no AVX2")
+endif()
+
+# refused(NAME WORDS): neither does its build get a manifest, nor does one that lies help; a run says so and ends with 4.
+function(refused name words)
+  refuse(4 "${words}" ${writer} shapes odd ${here}/${name}/odd.so)
+  configure_file(${here}/plain/odd.plugin.json ${here}/${name}/odd.plugin.json COPYONLY)
+  refuse(4 "${words}" ${program} plugins check ${here}/${name})
+  file(READ ${prefix}/share/toposcope/models/cup.yaml model)
+  string(REPLACE "shape: plane" "shape: odd" model "${model}")
+  file(WRITE ${here}/cup.yaml "${model}")
+  refuse(4 "${words}" ${program} run ${folder}/cup.ply --model ${here}/cup.yaml --plugin-dir ${here}/${name})
+endfunction()
+if(BUILD_TYPE MATCHES "Rel")
+  compile(debug ${prefix}/include -UNDEBUG -O0)
+  refused(debug "build=debug against build=release")
+endif()
+compile(containers ${prefix}/include -D_GLIBCXX_DEBUG)
+refused(containers "containers=debug against containers=plain")
+
+# other_minor(NAME MINOR): headers that differ in their minor.
+function(other_minor name difference)
+  file(COPY ${prefix}/include DESTINATION ${here}/${name})
+  file(READ ${here}/${name}/include/toposcope/plugin.h header)
+  if(NOT header MATCHES "abi_minor = ([0-9]+);")
+    message(FATAL_ERROR "plugin.h has no abi_minor")
+  endif()
+  math(EXPR minor "${CMAKE_MATCH_1} + ${difference}")
+  string(REGEX REPLACE "abi_minor = [0-9]+;" "abi_minor = ${minor};" header "${header}")
+  file(WRITE ${here}/${name}/include/toposcope/plugin.h "${header}")
+  compile(${name} ${here}/${name}/include)
+endfunction()
+other_minor(older -1)
+check(${writer} shapes odd ${here}/older/odd.so)
+check(${program} plugins check ${here}/older)
+expect_text("ABI 2.0")
+expect_text("1 pass, 0 fail")
+other_minor(newer 1)
+refused(newer "newer plugin ABI")
