@@ -149,7 +149,7 @@ std::string scene_title(const std::filesystem::path& mesh, const std::string& mo
 
 std::vector<std::uint8_t> labels_of(const Result& result, Index triangles) {
   std::vector<std::uint8_t> labels(triangles, 0);
-  for (std::size_t f = 0; f < result.features.size(); ++f)
+  for (std::size_t f = 0; f < result.features.size() && f < most_labels; ++f)
     for (const Index t : result.features[f].triangles) labels[t] = static_cast<std::uint8_t>(f + 1);
   return labels;
 }

@@ -84,6 +84,9 @@ Scene make_scene(const Mesh& input, const std::vector<std::uint8_t>& labels, std
 /// "cup.ply · cup"
 std::string scene_title(const std::filesystem::path& mesh, const std::string& model);
 
+/// Labels are single bytes; features beyond so many have none.
+inline constexpr std::size_t most_labels = 255;
+
 /// One label per triangle of the input: 0 none, 1 + the number of the last feature that has it.
 std::vector<std::uint8_t> labels_of(const Result& result, Index triangles);
 

@@ -24,7 +24,7 @@ void add_labels(LabelledMesh& labelled) {
   const MeshView& view = labelled.mesh.view();
   labelled.labels.assign(view.face_count(), 0);
   std::vector<std::uint8_t> of_face(labelled.mesh.input_faces(), 0);
-  for (std::size_t f = 0; f < labelled.result.features.size(); ++f)
+  for (std::size_t f = 0; f < labelled.result.features.size() && f < most_labels; ++f)
     for (const Index face : labelled.result.features[f].faces)
       if (face < of_face.size()) of_face[face] = static_cast<std::uint8_t>(f + 1);
   for (Index t = 0; t < view.face_count(); ++t) labelled.labels[t] = of_face[labelled.mesh.face_origin()[t]];
