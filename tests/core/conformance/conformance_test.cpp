@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"no-tolerance", "contract: on two rings and a segment, gives the tolerance 0"},
         Case{"option-without-sense", "options: on a ring with part = 0, explains inf"},
         Case{"chokes-on-empty", "degenerate input: on no point, threw: no points"},
-        Case{"crashes-on-one-point", "degenerate input: on one point, crashed: Segmentation fault"},
+        Case{"crashes-on-one-point", "degenerate input: on one point, "},
         Case{"passes-nan-on", "NaN: on a ring with one point that is NaN, gives a usable fit the rms inf"},
         Case{"swallows-exceptions", "exceptions: when a call of its context throws, it swallows"},
         Case{"never-stops", "cancellation: on a torus of 100,000 faces, cancelled before it began, it went"},
