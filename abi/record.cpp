@@ -83,9 +83,7 @@ std::size_t table_length(const void* object) {
     __VA_ARGS__           \
     layout.print(#Type);  \
   }
-#define VALUE(Enum, value) \
-  ;                        \
-  std::printf("value " #Enum "::" #value " %ld\n", static_cast<long>(Enum::value))
+#define VALUE(Enum, value) std::printf("value " #Enum "::" #value " %ld\n", static_cast<long>(Enum::value))
 #define SLOT(Class, function)                                                  \
   std::printf("slot " #Class "::" #function " %zu\n", slot(&Class::function)); \
   ++recorded;
@@ -105,7 +103,8 @@ void print_options() {
   VALUE(OptionType, text);
   STRUCT(OptionSpec,
          MEMBER(name) MEMBER(type) MEMBER(unit) MEMBER(default_value) MEMBER(minimum) MEMBER(maximum) MEMBER(meaning))
-  STRUCT(OptionValue, MEMBER(name) MEMBER(number) MEMBER(text)) std::printf("size Options %zu\n", sizeof(Options));
+  STRUCT(OptionValue, MEMBER(name) MEMBER(number) MEMBER(text))
+  std::printf("size Options %zu\n", sizeof(Options));
   STRUCT(ProvidedName, MEMBER(name) MEMBER(dimension) MEMBER(meaning))
   STRUCT(PluginDescriptor,
          MEMBER(struct_size) MEMBER(major) MEMBER(minor) MEMBER(fingerprint) MEMBER(kind) MEMBER(id) MEMBER(version)
