@@ -83,7 +83,7 @@ std::size_t table_length(const void* object) {
     __VA_ARGS__           \
     layout.print(#Type);  \
   }
-#define VALUE(Enum, value) std::printf("value " #Enum "::" #value " %ld\n", static_cast<long>(Enum::value));
+#define VALUE(Enum, value) std::printf("value " #Enum "::" #value " %ld\n", static_cast<long>(Enum::value))
 #define SLOT(Class, function)                                                  \
   std::printf("slot " #Class "::" #function " %zu\n", slot(&Class::function)); \
   ++recorded;
@@ -97,12 +97,14 @@ std::size_t table_length(const void* object) {
   }
 
 void print_options() {
-  VALUE(OptionType, real)
-  VALUE(OptionType, integer)
-  VALUE(OptionType, boolean) VALUE(OptionType, text)
-      STRUCT(OptionSpec, MEMBER(name) MEMBER(type) MEMBER(unit) MEMBER(default_value) MEMBER(minimum) MEMBER(maximum)
-                             MEMBER(meaning)) STRUCT(OptionValue, MEMBER(name) MEMBER(number) MEMBER(text))
-          std::printf("size Options %zu\n", sizeof(Options));
+  VALUE(OptionType, real);
+  VALUE(OptionType, integer);
+  VALUE(OptionType, boolean);
+  VALUE(OptionType, text);
+  STRUCT(OptionSpec,
+         MEMBER(name) MEMBER(type) MEMBER(unit) MEMBER(default_value) MEMBER(minimum) MEMBER(maximum) MEMBER(meaning))
+  STRUCT(OptionValue, MEMBER(name) MEMBER(number) MEMBER(text))
+  std::printf("size Options %zu\n", sizeof(Options));
   STRUCT(ProvidedName, MEMBER(name) MEMBER(dimension) MEMBER(meaning))
   STRUCT(PluginDescriptor,
          MEMBER(struct_size) MEMBER(major) MEMBER(minor) MEMBER(fingerprint) MEMBER(kind) MEMBER(id) MEMBER(version)
@@ -120,19 +122,24 @@ void print_geometry() {
 }
 
 void print_shapes() {
-  VALUE(Orientation, none)
-  VALUE(Orientation, plane_like)
-  VALUE(Orientation, line_like) VALUE(Termination, closed_form) VALUE(Termination, converged)
-      VALUE(Termination, iteration_limit) VALUE(Termination, failed) VALUE(Termination, degenerate) STRUCT(
-          FitSummary, MEMBER(termination) MEMBER(message) MEMBER(iterations) MEMBER(initial_cost) MEMBER(final_cost))
-          STRUCT(ShapeParameter, MEMBER(name) MEMBER(columns) MEMBER(values))
-              STRUCT(Measure, MEMBER(name) MEMBER(value) MEMBER(sd)) STRUCT(
-                  FittedShape, MEMBER(summary) MEMBER(parameters) MEMBER(measures) MEMBER(covariance_of)
-                                   MEMBER(covariance) MEMBER(orientation) MEMBER(direction) MEMBER(direction_sd)
-                                       MEMBER(centroid) MEMBER(centroid_sd) MEMBER(outline) MEMBER(outline_closed)
-                                           MEMBER(rms) MEMBER(explained) MEMBER(unexplained) MEMBER(coverage))
-                  STRUCT(FitInput, MEMBER(points) MEMBER(areas) MEMBER(set_offsets) MEMBER(set_boxes) MEMBER(box)
-                                       MEMBER(object_box) MEMBER(mean_edge)) STRUCT(Interval, MEMBER(low) MEMBER(high))
+  VALUE(Orientation, none);
+  VALUE(Orientation, plane_like);
+  VALUE(Orientation, line_like);
+  VALUE(Termination, closed_form);
+  VALUE(Termination, converged);
+  VALUE(Termination, iteration_limit);
+  VALUE(Termination, failed);
+  VALUE(Termination, degenerate);
+  STRUCT(FitSummary, MEMBER(termination) MEMBER(message) MEMBER(iterations) MEMBER(initial_cost) MEMBER(final_cost))
+  STRUCT(ShapeParameter, MEMBER(name) MEMBER(columns) MEMBER(values))
+  STRUCT(Measure, MEMBER(name) MEMBER(value) MEMBER(sd))
+  STRUCT(FittedShape, MEMBER(summary) MEMBER(parameters) MEMBER(measures) MEMBER(covariance_of) MEMBER(covariance)
+                          MEMBER(orientation) MEMBER(direction) MEMBER(direction_sd) MEMBER(centroid)
+                              MEMBER(centroid_sd) MEMBER(outline) MEMBER(outline_closed) MEMBER(rms) MEMBER(explained)
+                                  MEMBER(unexplained) MEMBER(coverage))
+  STRUCT(FitInput, MEMBER(points) MEMBER(areas) MEMBER(set_offsets) MEMBER(set_boxes) MEMBER(box) MEMBER(object_box)
+                       MEMBER(mean_edge))
+  STRUCT(Interval, MEMBER(low) MEMBER(high))
 }
 
 void print_relations_and_labeling() {
@@ -194,7 +201,11 @@ namespace {
 
 void print_interfaces() {
   using namespace abi_record;
-  VALUE(LogLevel, debug) VALUE(LogLevel, info) VALUE(LogLevel, warning) VALUE(LogLevel, error) const AContext context;
+  VALUE(LogLevel, debug);
+  VALUE(LogLevel, info);
+  VALUE(LogLevel, warning);
+  VALUE(LogLevel, error);
+  const AContext context;
   INTERFACE(Context, context,
             SLOT(Context, log) SLOT(Context, progress) SLOT(Context, cancelled) SLOT(Context, seed)
                 SLOT(Context, threads) SLOT(Context, parallel_for))

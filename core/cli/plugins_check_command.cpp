@@ -86,7 +86,10 @@ int plugins_check(const PluginsOptions& options) {
   for (Checked& plugin : plugins) {
     if (plugin.verdicts.empty()) {
       plugin.verdicts = examine_in_process(fs::absolute(plugin.library));
-      if (options.valgrind && plugin.passes()) plugin.verdicts.push_back(examine_memory(fs::absolute(plugin.library)));
+      const bool ran = std::none_of(plugin.verdicts.begin(), plugin.verdicts.end(),
+                                    [](const Verdict& v) { return v.check == "run"; });  // it lacks a program
+      if (options.valgrind && ran && plugin.passes())
+        plugin.verdicts.push_back(examine_memory(fs::absolute(plugin.library)));
     }
     good += plugin.passes() ? 1 : 0;
     if (!options.json) {

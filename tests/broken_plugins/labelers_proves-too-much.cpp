@@ -4,7 +4,7 @@
 namespace {
 struct Broken : sound::Silence {
   using Silence::Silence;
-  /// The first variable takes its cheapest value of all orders' first three, and that is said to be the best labelling.
+  /// The first variable takes its first value, and that is said to be the best labelling.
   toposcope::LabelingOutcome solve(const toposcope::LabelingProblem& problem, const toposcope::LabelingRequest& request,
                                    toposcope::Context& context) const override {
     toposcope::LabelingOutcome outcome = Silence::solve(problem, request, context);

@@ -9,7 +9,7 @@ struct Broken : sound::Shape {
   toposcope::FittedShape fit(const toposcope::FitInput& input, const toposcope::Options& arguments,
                              toposcope::Context& context) const override {
     toposcope::FittedShape shape = Shape::fit(input, arguments, context);
-    // From the fiftieth call on; the kit's check of exceptions has only a few.
+    // From the tenth call of an object on: only a check that calls it often finds it.
     if (shape.summary.usable() && ++calls_ > 9) shape.explained = 2 + calls_;
     return shape;
   }

@@ -43,7 +43,7 @@ class Shape : public ShapeFitter {
   }
 };
 
-/// Everything on the concave side of the middle: vertices nearer to the centroid than the mean.
+/// Vertices nearer to the centroid than the mean.
 class Classifier : public WorkingSetClassifier {
  public:
   explicit Classifier(const Options&) {}
@@ -75,7 +75,7 @@ class Classifier : public WorkingSetClassifier {
   }
 };
 
-/// Features are equally large.
+/// Two features are near each other.
 class Relation : public RelationTester {
  public:
   explicit Relation(const Options&) {}
