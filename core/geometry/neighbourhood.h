@@ -19,10 +19,14 @@ struct Neighbour {
 /// Vertices that a walk from p reaches without leaving the ball.
 class Neighbourhood {
  public:
-  /// \param reach  radius of the ball, in mean edges around the vertex
-  Neighbourhood(const MeshView& mesh, double reach)
+  struct Limits {
+    double reach;             ///< radius of the ball, in mean edges around the vertex
+    double last_step;         ///< of the radius: from farther out the walk goes no further
+    std::size_t most_points;  ///< where a mesh is much finer here than on average, the nearest by steps
+  };
+  Neighbourhood(const MeshView& mesh, const Limits& limits)
       : mesh_(mesh),
-        reach_(reach),
+        limits_(limits),
         reached_from_(large_array<Index>(mesh.vertex_count(), std::numeric_limits<Index>::max())) {}
 
   /// p itself not among them.
@@ -39,12 +43,13 @@ class Neighbourhood {
       edges += reached_[count++].offset.norm();
     }
     if (count == 0) return {};
-    radius_ = reach_ * std::max(mesh_.mean_edge, edges / static_cast<double>(count));
-    const double squared = radius_ * radius_, squared_turn = last_step * last_step * squared;
-    for (std::size_t i = 0; i < count && count < most_points; ++i) {
+    radius_ = limits_.reach * std::max(mesh_.mean_edge, edges / static_cast<double>(count));
+    const double squared = radius_ * radius_, squared_turn = limits_.last_step * limits_.last_step * squared;
+    for (std::size_t i = 0; i < count && count < limits_.most_points; ++i) {
       if (reached_[i].offset.squaredNorm() > squared_turn) continue;
       const auto next = mesh_.one_ring(reached_[i].vertex);
-      if (next.size() > most_points) continue;  // the hub of a wheel: to go through it from every spoke is without end
+      if (next.size() > limits_.most_points)
+        continue;  // the hub of a wheel: to go through it from every spoke is without end
       make_room(count, next.size());
       for (Index q : next) {
         if (reached_from_[q] == p) continue;
@@ -65,12 +70,9 @@ class Neighbourhood {
     if (reached_.size() < count + more) reached_.resize(count + more);
   }
 
-  static constexpr double last_step = 0.75;  // of the radius: from farther out the walk goes no further
-  /// Where a mesh is much finer here than on average, the nearest by steps.
-  static constexpr std::size_t most_points = 48;
-
   const MeshView& mesh_;
-  double reach_, radius_ = 0;
+  Limits limits_;
+  double radius_ = 0;
   std::vector<Neighbour> reached_;
   std::vector<Index> reached_from_;
 };

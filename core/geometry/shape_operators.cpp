@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t grain = 1024;
 
-constexpr double reach = 2;          // radius of the neighbourhood, in mean edges around the vertex
+constexpr Neighbourhood::Limits near = {.reach = 2, .last_step = 0.75, .most_points = 48};
 constexpr double faces_away = -0.3;  // cosine between normals
 constexpr double ridge = 1e-5;       // of the squared reach; biases by less than 0.1 %
 
@@ -173,7 +173,7 @@ ShapeOperators fit_shape_operators(const MeshView& mesh, Context& context) {
   // Few chunks: each has a mark per vertex of the mesh.
   const std::size_t chunk = std::max<std::size_t>(grain, mesh.vertex_count() / 16);
   context.parallel_for(mesh.vertex_count(), chunk, [&](std::size_t first, std::size_t last) {
-    Neighbourhood neighbourhood(mesh, reach);
+    Neighbourhood neighbourhood(mesh, near);
     SixUnknowns quadric;
     for (Index p = static_cast<Index>(first); p < last; ++p) {
       if (p % grain == 0 && context.cancelled()) return;

@@ -144,6 +144,28 @@ TriangleSoup make_grid(int nx, int ny, double width, double depth) {
   return finished(std::move(soup));
 }
 
+TriangleSoup make_sheet(double width, double thickness, int n) {
+  TriangleSoup soup;
+  for (const double side : {-1, 1})
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+        soup.positions.push_back({width * (double(i) / n - 0.5), width * (double(j) / n - 0.5), side * thickness / 2});
+  const auto below = [&](int i, int j) { return static_cast<Index>(j * (n + 1) + i); };
+  const auto above = [&](int i, int j) { return below(i, j) + static_cast<Index>((n + 1) * (n + 1)); };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      add_quad(soup, above(i, j), above(i + 1, j), above(i + 1, j + 1), above(i, j + 1));
+      add_quad(soup, below(i, j), below(i, j + 1), below(i + 1, j + 1), below(i + 1, j));
+    }
+  for (int k = 0; k < n; ++k) {
+    add_quad(soup, below(k, 0), below(k + 1, 0), above(k + 1, 0), above(k, 0));
+    add_quad(soup, below(k + 1, n), below(k, n), above(k, n), above(k + 1, n));
+    add_quad(soup, below(0, k + 1), below(0, k), above(0, k), above(0, k + 1));
+    add_quad(soup, below(n, k), below(n, k + 1), above(n, k + 1), above(n, k));
+  }
+  return finished(std::move(soup));
+}
+
 TriangleSoup make_box(const Vec3& sides, int n) {
   TriangleSoup soup;
   std::map<std::array<int, 3>, Index> index;  // lattice point of the surface -> vertex

@@ -31,6 +31,9 @@ TriangleSoup make_torus(double major, double minor, int nu, int nv);
 /// Flat rectangle in z = 0, normal +z, of nx x ny quads.
 TriangleSoup make_grid(int nx, int ny, double width = 1, double depth = 1);
 
+/// A closed square sheet around the origin: n x n cells above and below, one strip of cells around.
+TriangleSoup make_sheet(double width, double thickness, int n);
+
 /// Cuboid with the given sides along x, y, z; each face n x n quads.
 TriangleSoup make_box(const Vec3& sides, int n = 1);
 

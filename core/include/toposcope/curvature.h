@@ -68,11 +68,12 @@ inline PrincipalCurvatures principal_curvatures(const ShapeOperator& at) {
 }
 Curvature principal_curvatures(const ShapeOperators& operators);
 
-/// The first moment of the surface around each vertex: the area-weighted mean, in radii, of the offsets of the vertices
-/// that a walk along edges reaches within `reach` mean edges. Against the normal where the surface is convex: on a
-/// sphere of radius R, radius / (4 R); 0.3 at a right-angled edge; 4 / (3 pi) at the edge of a thin sheet, which has no
-/// curvature to speak of and no one normal (Clarenz, Rumpf and Telea, Robust feature detection and local classification
-/// for surfaces based on moment analysis, TVCG 2004).
+/// The first moment of the surface around each vertex: the mean, in radii, of the offsets of the vertices that a walk
+/// along edges reaches within `reach` mean edges, weighted by area and by 1 - (distance / radius)^2, so that nothing
+/// hangs on which vertices lie just within. Against the normal where the surface is convex: radius / (6 R) on a sphere
+/// of radius R; 16 / (15 pi) = 0.34 at the edge of a thin sheet, which has no curvature to speak of and no one normal;
+/// 0.24 at a right-angled edge (Clarenz, Rumpf and Telea, Robust feature detection and local classification for
+/// surfaces based on moment analysis, TVCG 2004).
 std::vector<Vec3> first_moments(const MeshView& mesh, double reach, Context& context);
 
 /// \}

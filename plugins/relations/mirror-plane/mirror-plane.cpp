@@ -18,14 +18,12 @@ class MirrorPlane final : public RelationTester {
 
   RelationResult test(const RelationInput& input, const Options& /*arguments*/, Context& /*context*/) const override {
     RelationResult best;
-    best.applicable = false;
-    best.why = "two of the features have one centroid: no plane lies between them";
     for (std::size_t middle = 0; middle < 3; ++middle) {
       const RelationResult result =
           midway(input, *input.features[middle].shape, *input.features[(middle + 1) % 3].shape,
                  *input.features[(middle + 2) % 3].shape);
-      if (!result.applicable) return best;
-      if (!best.applicable || result.residual * best.tolerance < best.residual * result.tolerance) best = result;
+      if (!result.applicable) return result;
+      if (middle == 0 || result.residual * best.tolerance < best.residual * result.tolerance) best = result;
     }
     return best;
   }
@@ -37,7 +35,10 @@ class MirrorPlane final : public RelationTester {
     const double between = across.norm();
     RelationResult result;
     result.applicable = between > 0;
-    if (!result.applicable) return result;
+    if (!result.applicable) {
+      result.why = "two of the features have one centroid: no plane lies between them";
+      return result;
+    }
     const auto squared = [&](const Vec3& point) {
       const double off = (point - middle).dot(across) / between;
       return off * off;

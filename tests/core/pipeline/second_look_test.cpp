@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <set>
 
@@ -98,7 +99,14 @@ TEST_F(SecondLook, AddsTheGroupsThatAFeatureNamesForIt) {
   const FeatureCandidates& pair = features.of_feature[1];
   EXPECT_EQ(pair.count.groups, 9u);
   EXPECT_EQ(pair.count.kept, pair.constructed.size());
-  EXPECT_TRUE(std::is_sorted(pair.evidence.rbegin(), pair.evidence.rend()));
+  // Of five pairs a candidate is one of five, of four single sets one of four.
+  std::vector<double> cost;
+  for (std::size_t c = 0; c < pair.constructed.size(); ++c) {
+    const bool single = features.all[pair.constructed[c]].sets.size() == 1;
+    EXPECT_EQ(pair.ways[c], single ? 4 : 5);
+    cost.push_back(std::log(pair.ways[c]) - pair.evidence[c]);
+  }
+  EXPECT_TRUE(std::is_sorted(cost.begin(), cost.end()));
 }
 
 TEST_F(SecondLook, LeavesAloneWhatAnotherFeatureHasTaken) {

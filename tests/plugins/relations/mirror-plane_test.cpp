@@ -28,7 +28,7 @@ TEST(MirrorPlane, ResidualIsTheDistanceFromThePlane) {
   EXPECT_NEAR(between({0, 3, 1}, {{0, 1, 5}, {0, -2, 7}}).residual, 0, 1e-12);
   EXPECT_NEAR(between({0.5, 3, 1}, {}).residual, 0.5, 1e-12);
   EXPECT_NEAR(between({0, 0, 0}, {{0.3, 2, 2}, {-0.3, 0, 1}, {0.3, 0, 0}}).residual, std::sqrt(0.27 / 4), 1e-12);
-  EXPECT_NEAR(between({0.5, 3, 1}, {}, {}, {-1, 2, 0}).residual, std::abs(0.5 * 2 - 2 * 2) / std::sqrt(8), 1e-12);
+  EXPECT_NEAR(between({0.1, 3, 1}, {}, {}, {-1, 0.2, 0}).residual, (2.9 * 0.2 - 0.1 * 2) / std::hypot(2, 0.2), 1e-12);
   EXPECT_NEAR(between({0, 3, 1}, {}).tolerance, 0.2, 1e-12);
 }
 

@@ -85,9 +85,7 @@ TEST(CurvatureTree, OffersTheEdgesOfACylinder) {
 /// A sheet a tenth of an edge thick, as wings of coarse meshes are: one set holds its whole border and nothing else.
 TEST(CurvatureTree, OffersTheEdgeOfAThinSheet) {
   constexpr double edge = 0.125, width = 4;
-  TriangleSoup soup = test::make_box({width, width, width}, static_cast<int>(width / edge));
-  for (Vec3& p : soup.positions) p.z() *= edge / 10 / width;
-  const Mesh mesh(std::move(soup), "sheet");
+  const Mesh mesh(test::make_sheet(width, edge / 10, static_cast<int>(width / edge)), "sheet");
   const MeshView& view = mesh.view();
   const auto inside = [&](Index v) {  // how far from the border
     const Vec3 arm = view.positions[v] - view.box.center;
