@@ -15,7 +15,7 @@ constexpr double point_radius = 1.9;     // of a ball at a point, in tube radii
 
 using Normal = Eigen::Vector3f;
 
-void add(PaintedMesh& solid, const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals, const Rgb& color) {
+void add(ShadedMesh& solid, const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals, const Rgb& color) {
   const Index first = static_cast<Index>(solid.positions.size());
   solid.positions.insert(solid.positions.end(), corners.begin(), corners.end());
   solid.triangles.push_back({first, first + 1, first + 2});
@@ -23,7 +23,7 @@ void add(PaintedMesh& solid, const std::array<Vec3, 3>& corners, const std::arra
   solid.triangle_colors.push_back(color);
 }
 
-void add_tube(PaintedMesh& solid, const Vec3& tail, const Vec3& head, double radius, const Rgb& color) {
+void add_tube(ShadedMesh& solid, const Vec3& tail, const Vec3& head, double radius, const Rgb& color) {
   const Vec3 along = head - tail;
   if (!(along.norm() > 0)) return;
   const Vec3 axis = along.normalized(), u = any_perpendicular(axis), v = axis.cross(u);
@@ -38,7 +38,7 @@ void add_tube(PaintedMesh& solid, const Vec3& tail, const Vec3& head, double rad
   }
 }
 
-void add_ball(PaintedMesh& solid, const Vec3& center, double radius, const Rgb& color) {
+void add_ball(ShadedMesh& solid, const Vec3& center, double radius, const Rgb& color) {
   constexpr Index along = 6;
   const auto at = [](Index i, Index j) {
     const double angle = 2 * pi * (i % around) / around, polar = pi * j / along;
@@ -55,7 +55,7 @@ void add_ball(PaintedMesh& solid, const Vec3& center, double radius, const Rgb& 
 
 }  // namespace
 
-void PaintedMesh::append(const PaintedMesh& other) {
+void ShadedMesh::append(const ShadedMesh& other) {
   const Index first = static_cast<Index>(positions.size());
   positions.insert(positions.end(), other.positions.begin(), other.positions.end());
   for (const Triangle& t : other.triangles) triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
@@ -91,8 +91,8 @@ std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(const std::vector<Vec
   return normals;
 }
 
-PaintedMesh tubes(const Drawing& drawing, double radius, const Rgb& color) {
-  PaintedMesh solid;
+ShadedMesh tubes(const Drawing& drawing, double radius, const Rgb& color) {
+  ShadedMesh solid;
   for (const std::vector<Vec3>& line : drawing.lines)
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (i > 0) add_tube(solid, line[i - 1], line[i], radius, color);
@@ -102,10 +102,10 @@ PaintedMesh tubes(const Drawing& drawing, double radius, const Rgb& color) {
   return solid;
 }
 
-PaintedMesh sheets(const Drawing& drawing, const Rgb& color) {
-  PaintedMesh solid;
+ShadedMesh sheets(const Drawing& drawing, const Rgb& color) {
+  ShadedMesh solid;
   for (const Patch& patch : drawing.patches) {
-    PaintedMesh part{patch.positions, patch.triangles, corner_normals(patch.positions, patch.triangles), {}, {}};
+    ShadedMesh part{patch.positions, patch.triangles, corner_normals(patch.positions, patch.triangles), {}, {}};
     part.triangle_colors.assign(patch.triangles.size(), color);
     solid.append(part);
   }

@@ -9,22 +9,22 @@
 namespace toposcope {
 
 /// Triangles to paint, with a normal at each corner.
-struct PaintedMesh {
+struct ShadedMesh {
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;
   std::vector<std::array<Eigen::Vector3f, 3>> normals;  ///< per triangle and corner
   std::vector<Rgb> triangle_colors;                     ///< one per triangle, or
   std::vector<Rgb> vertex_colors;                       ///< one per vertex; a place has that of most of its triangle
 
-  void append(const PaintedMesh& other);
+  void append(const ShadedMesh& other);
 };
 
 /// What is on a picture.
 struct Composition {
-  PaintedMesh surface;      ///< casts and takes shadows
+  ShadedMesh surface;       ///< casts and takes shadows
   bool show_edges = false;  ///< the triangles' edges, where they are large enough to see
-  PaintedMesh lines;        ///< tubes and balls; what the surface hides of them shines through
-  PaintedMesh sheets;       ///< likewise, translucent
+  ShadedMesh lines;         ///< tubes and balls; what the surface hides of them shines through
+  ShadedMesh sheets;        ///< likewise, translucent
   double line_radius = 0;   ///< of the tubes, mesh unit
 };
 
@@ -34,8 +34,8 @@ std::vector<std::array<Eigen::Vector3f, 3>> corner_normals(const std::vector<Vec
                                                            const std::vector<Triangle>& triangles);
 
 /// Tubes along the lines, balls at their corners and at the points.
-PaintedMesh tubes(const Drawing& drawing, double radius, const Rgb& color);
+ShadedMesh tubes(const Drawing& drawing, double radius, const Rgb& color);
 
-PaintedMesh sheets(const Drawing& drawing, const Rgb& color);
+ShadedMesh sheets(const Drawing& drawing, const Rgb& color);
 
 }  // namespace toposcope

@@ -33,7 +33,7 @@ float to_srgb(float linear) {
   return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F;
 }
 
-Layer::Layer(const PaintedMesh& solid, const Camera& camera, int scale)
+Layer::Layer(const ShadedMesh& solid, const Camera& camera, int scale)
     : solid_(solid), corners_(solid.positions.size()) {
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     corners_[i] = camera(solid.positions[i]);

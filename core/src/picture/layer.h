@@ -13,7 +13,7 @@ namespace toposcope {
 class Layer {
  public:
   /// \param scale  samples per pixel and direction
-  Layer(const PaintedMesh& solid, const Camera& camera, int scale);
+  Layer(const ShadedMesh& solid, const Camera& camera, int scale);
 
   struct Sample {
     float w = 0;  ///< inverse depth; 0: nothing there
@@ -27,14 +27,14 @@ class Layer {
   /// Distance from the nearest edge, and the least height of the triangle; in samples.
   std::pair<float, float> from_edge(Index triangle, int column, int row) const;
 
-  const PaintedMesh& solid() const { return solid_; }
+  const ShadedMesh& solid() const { return solid_; }
   Vec3 point(Index triangle, const Eigen::Vector3f& weights) const;
   Eigen::Vector3f normal(Index triangle, const Eigen::Vector3f& weights) const;
   /// Linear, not as in the file.
   Eigen::Vector3f color(Index triangle, const Eigen::Vector3f& weights) const;
 
  private:
-  const PaintedMesh& solid_;
+  const ShadedMesh& solid_;
   std::vector<Camera::Projected> corners_;
 };
 

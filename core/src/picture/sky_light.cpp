@@ -34,7 +34,7 @@ float spread(float cosine) {
 
 }  // namespace
 
-SkyLight::SkyLight(const PaintedMesh& surface, const Eigen::Matrix3d& axes, std::size_t directions, int pixels,
+SkyLight::SkyLight(const ShadedMesh& surface, const Eigen::Matrix3d& axes, std::size_t directions, int pixels,
                    Context& context)
     : directions_(directions), pixels_(pixels) {
   Vec3 low = Vec3::Constant(1e300), high = -low;
@@ -63,7 +63,7 @@ SkyLight::SkyLight(const PaintedMesh& surface, const Eigen::Matrix3d& axes, std:
   for (Direction& direction : directions_) direction.radiance *= exposure / most;
 }
 
-void SkyLight::draw(const PaintedMesh& surface, Direction& direction) const {
+void SkyLight::draw(const ShadedMesh& surface, Direction& direction) const {
   direction.nearest.assign(static_cast<std::size_t>(pixels_) * static_cast<std::size_t>(pixels_), nothing);
   std::vector<Vec3f> corners(surface.positions.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {

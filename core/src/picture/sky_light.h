@@ -15,7 +15,7 @@ class SkyLight {
  public:
   /// \param axes        of the camera: rows right, up, towards the viewer
   /// \param directions  how many; \param pixels  of a depth map's side
-  SkyLight(const PaintedMesh& surface, const Eigen::Matrix3d& axes, std::size_t directions, int pixels,
+  SkyLight(const ShadedMesh& surface, const Eigen::Matrix3d& axes, std::size_t directions, int pixels,
            Context& context);
 
   /// Light on a small piece of surface; 1 is about what a piece that faces the lamp has.
@@ -29,7 +29,7 @@ class SkyLight {
     float radiance = 0;
     std::vector<float> nearest;  ///< depth map: greatest height towards the light
   };
-  void draw(const PaintedMesh& surface, Direction& direction) const;
+  void draw(const ShadedMesh& surface, Direction& direction) const;
   float visible(const Direction& direction, const Eigen::Vector3f& offset) const;
 
   std::vector<Direction> directions_;

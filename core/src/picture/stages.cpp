@@ -169,7 +169,7 @@ std::vector<Vec3> extent(const Composition& composition) {
 
 View best_view(const Scene& scene, const Stand& stand) {
   constexpr int width = 160, height = 120;
-  PaintedMesh solid;
+  ShadedMesh solid;
   solid.positions = scene.input.positions;
   solid.triangles = scene.input.triangles;
   View best;

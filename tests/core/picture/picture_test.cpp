@@ -18,8 +18,8 @@ namespace {
 
 constexpr Rgb red = {213, 94, 0}, blue = {0, 114, 178};
 
-PaintedMesh solid_of(const TriangleSoup& soup, const Rgb& color) {
-  PaintedMesh solid;
+ShadedMesh solid_of(const TriangleSoup& soup, const Rgb& color) {
+  ShadedMesh solid;
   solid.positions = soup.positions;
   solid.triangles = soup.triangles;
   solid.normals = corner_normals(soup.positions, soup.triangles);
@@ -134,7 +134,7 @@ TEST(SkyLight, IsDarkInHollows) {
   std::erase_if(box.triangles, [&](const Triangle& t) {
     return box.positions[t[0]].z() > 0.999 && box.positions[t[1]].z() > 0.999 && box.positions[t[2]].z() > 0.999;
   });
-  const PaintedMesh solid = solid_of(box, red);
+  const ShadedMesh solid = solid_of(box, red);
   const SkyLight light(solid, Eigen::Matrix3d::Identity(), 128, 128, test::context());
   const Eigen::Vector3f up(0, 0, 1);
   const float floor = light.at({0, 0, -1}, up), above = light.at({0, 0, 5}, up);
