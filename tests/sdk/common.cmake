@@ -39,5 +39,5 @@ endmacro()
 function(configure_and_build source binary)
   check(${CMAKE_COMMAND} -S ${source} -B ${binary} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_PREFIX_PATH=${prefix}
     "-DCMAKE_CXX_FLAGS=${FLAGS} -Wall -Wextra -Wpedantic -Werror" ${ARGN})
-  check(${CMAKE_COMMAND} --build ${binary})
+  check(${CMAKE_COMMAND} --build ${binary} --parallel 2)
 endfunction()
