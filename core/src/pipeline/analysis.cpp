@@ -178,7 +178,7 @@ Analysis construct(const Mesh& mesh, const Model& model, const Stations& station
   if (has_second_look(model)) {
     const auto labelled = first_labeling(analysis.problem, model, stations, context);
     if (look_again(view, model, analysis.sets, overlap, labelled, stations, context, analysis.features))
-      analysis.problem = build_problem(view, model, analysis.features, overlap, stations, context);
+      analysis.problem = build_problem(view, model, analysis.features, overlap, stations, context, &analysis.problem);
     lap("second_look");
   }
   if (context.cancelled()) throw Error("interrupted", interrupted_exit_code);

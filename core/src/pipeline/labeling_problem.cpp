@@ -148,7 +148,8 @@ RelationResult test_relationship(const MeshView& mesh, const Model& model, Index
 }
 
 LabelingProblem build_problem(const MeshView& mesh, const Model& model, const ConstructedFeatures& features,
-                              const BitMatrix& overlap, const Stations& stations, Context& context) {
+                              const BitMatrix& overlap, const Stations& stations, Context& context,
+                              const LabelingProblem* known) {
   LabelingProblem problem;
   problem.name = model.name;
   for (Index f = 0; f < model.features.size(); ++f) {
@@ -176,6 +177,11 @@ LabelingProblem build_problem(const MeshView& mesh, const Model& model, const Co
 
   for (Index r = 0; r < model.relationships.size(); ++r) {
     const Relationship& relationship = model.relationships[r];
+    const auto same = [&](Index v) { return problem.variables[v].candidates == known->variables[v].candidates; };
+    if (known && std::all_of(relationship.features.begin(), relationship.features.end(), same)) {
+      problem.constraints.push_back(known->constraints[r]);
+      continue;
+    }
     LabelingConstraint& constraint = problem.constraints.emplace_back(empty_constraint(relationship, problem));
     const BoundRelation relation(mesh, model, r, stations);
     guard(relationship.plugin,

@@ -11,9 +11,13 @@ RelationResult test_relationship(const MeshView& mesh, const Model& model, Index
                                  Context& context);
 
 /// The station *relate*: the labelling problem of a mesh. Variable i is model feature i, constraint i relationship i.
+/// \param known  of the same mesh and model, with fewer candidates: where those of a relationship's features are the
+/// same,
+///               so is its table
 /// \throw UsageError  a relationship's table would be too large
 LabelingProblem build_problem(const MeshView& mesh, const Model& model, const ConstructedFeatures& features,
-                              const BitMatrix& overlap, const Stations& stations, Context& context);
+                              const BitMatrix& overlap, const Stations& stations, Context& context,
+                              const LabelingProblem* known = nullptr);
 
 /// The questions that a model puts: one per class rule, with only the features that its relationships name and these
 /// relationships as constraints; the whole problem when the model has no classes. A feature that a class

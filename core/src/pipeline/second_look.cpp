@@ -11,7 +11,7 @@
 namespace toposcope {
 namespace {
 
-constexpr std::size_t most_fits = 400;  // of a feature: about as many as at the first look
+constexpr std::size_t most_fits = 250;  // of a feature: about as many as at the first look
 constexpr double near_violation = 2;    // in tolerances: a box tells centroid and direction of a shape but roughly
 constexpr std::size_t grain = 32;
 

@@ -15,6 +15,7 @@
 
 #include "mesh/mesh.h"
 #include "model/read_model.h"
+#include "pipeline/labeling_problem.h"
 #include "pipeline/pipeline_manifest.h"
 #include "support/meshes.h"
 #include "support/plugins.h"
@@ -25,19 +26,23 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 
-constexpr const char* two_features = R"(
+constexpr const char* three_features = R"(
 schema: toposcope.model/1
 name: frame
 features:
   bar: {worksets: [convex], shape: lgrp1}
   pair: {worksets: [convex], second_look: [convex, convex], shape: lgrp3}
+  rod: {worksets: [convex], shape: lgrp1}
+relationships:
+  r1: {features: [bar, rod], type: parallel}
+  r2: {features: [bar, pair], type: parallel}
 )";
 
 /// Of a grid of 21 x 21 vertices, one apart: set 0 the first row, set 1 the first two, sets 2 and 3 the rows 8 and 12.
 struct SecondLook : ::testing::Test {
   SecondLook() : mesh(test::make_grid(20, 20, 20, 20), "grid") {
     const fs::path path = fs::path(::testing::TempDir()) / "second_look.yaml";
-    std::ofstream(path) << two_features;
+    std::ofstream(path) << three_features;
     model = read_model(path, &test::host().catalog());
     const fs::path pipeline = fs::path(TOPOSCOPE_SOURCE_DIR) / "pipelines/default.yaml";
     stations = make_stations(test::host(), read_pipeline(pipeline, test::host().catalog()), model);
@@ -75,7 +80,8 @@ struct SecondLook : ::testing::Test {
     return 0;
   }
 
-  bool look(const std::vector<std::optional<Index>>& labelled) {
+  bool look(std::vector<std::optional<Index>> labelled) {
+    labelled.resize(model.features.size());
     return look_again(mesh.view(), model, sets, overlap, labelled, stations, test::context(2), features);
   }
 
@@ -120,6 +126,21 @@ TEST_F(SecondLook, SaysWhereItFindsNothingNew) {
   model.features[1].second_look = {"concave", "concave"};  // the mesh has none
   EXPECT_FALSE(look({{}, {}}));
   EXPECT_EQ(features.of_feature[1].count.groups, 4u);
+}
+
+TEST_F(SecondLook, TheProblemIsTheSameWhetherOrNotTheFirstIsKnown) {
+  const auto problem = [&](const LabelingProblem* known) {
+    return build_problem(mesh.view(), model, features, overlap, stations, test::context(2), known);
+  };
+  const LabelingProblem first = problem(nullptr);
+  ASSERT_TRUE(look({}));
+  const LabelingProblem afresh = problem(nullptr), known = problem(&first);
+  EXPECT_NE(afresh.constraints[1].costs.size(), first.constraints[1].costs.size());
+  ASSERT_EQ(known.constraints.size(), afresh.constraints.size());
+  for (std::size_t r = 0; r < afresh.constraints.size(); ++r) {
+    EXPECT_EQ(known.constraints[r].costs, afresh.constraints[r].costs) << r;
+    EXPECT_EQ(known.constraints[r].violations, afresh.constraints[r].violations) << r;
+  }
 }
 
 /// Two parallel edges four apart, as those of a fin under a T-tail: the lines run along both, and one joins them.
