@@ -12,11 +12,15 @@ const CHROMIUM = process.env['TOPOSCOPE_CHROMIUM'] ?? ['/usr/bin/chromium', '/us
 const FLAGS = [
   '--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
   '--disable-component-update', '--disable-sync', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+  // A machine that is busy for half a minute is not a fault of the page.
+  '--disable-gpu-watchdog', '--disable-hang-monitor',
 ];
+
+const PATIENCE_MS = 120_000;
 
 export function launch(): Promise<Browser> {
   if (!CHROMIUM) throw new Error('chromium is not there: run scripts/install-deps, or name it in TOPOSCOPE_CHROMIUM');
-  return chromium.launch({ executablePath: CHROMIUM, args: FLAGS });
+  return chromium.launch({ executablePath: CHROMIUM, args: FLAGS, timeout: PATIENCE_MS });
 }
 
 export const folder = mkdtempSync(join(tmpdir(), 'toposcope-page-'));
@@ -41,6 +45,7 @@ export interface Opened {
 
 export async function open(browser: Browser, path: string, options: BrowserContextOptions = {}): Promise<Opened> {
   const context = await browser.newContext({ viewport: { width: 1190, height: 600 }, reducedMotion: 'reduce', acceptDownloads: true, ...options });
+  context.setDefaultTimeout(PATIENCE_MS);
   const page = await context.newPage(), faults: string[] = [], url = pathToFileURL(path).href;
   page.on('console', (message) => message.type() === 'error' && faults.push(`console: ${message.text()}`));
   page.on('pageerror', (error) => faults.push(`page: ${error.message}`));

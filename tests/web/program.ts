@@ -100,7 +100,8 @@ test('compare writes an index with the labelers side by side', async () => {
 });
 
 test('evaluate writes an index with reports behind its thumbnails', async () => {
-  run('evaluate', 'mine.yaml', '--out', 'evaluated', '--reports');
+  writeFileSync(join(folder, 'cups.yaml'), 'schema: toposcope.dataset/1\nname: cups\nsummary: one cup\nmodel: cup\nmeshes:\n  - {files: cup.ply}\n');
+  run('evaluate', 'cups.yaml', '--out', 'evaluated', '--reports');
   const { page, faults } = await open(browser, join(folder, 'evaluated/index.html'));
   assert.equal(await page.locator('.figures figure').count() > 0, true, 'a reliability diagram');
   const report = await page.getAttribute('.gallery a', 'href');
