@@ -70,7 +70,6 @@ class Look {
  private:
   bool may_relate(std::span<const Index> group, Context& context) const {
     ConstructedFeature box;
-    box.sets.assign(group.begin(), group.end());
     for (const Index s : group)
       for (const Index v : sets_[s]) box.points.push_back(mesh_.positions[v]);
     box.box = principal_box(box.points);
