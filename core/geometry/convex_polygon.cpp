@@ -6,11 +6,6 @@
 #include "convex_hull.h"
 
 namespace toposcope::geometry {
-namespace {
-
-constexpr double straight_tolerance = 1e-12;  ///< twice the area of three corners in line / extent squared
-
-}  // namespace
 
 using Eigen::Vector2d;
 
@@ -21,12 +16,10 @@ std::vector<Index> convex_polygon(std::span<const Vector2d> points) {
     const auto &p = points[i], &q = points[j];
     return p.x() != q.x() ? p.x() < q.x() : p.y() != q.y() ? p.y() < q.y() : i < j;
   });
-  double extent = 0;
-  for (const auto& p : points) extent = std::max(extent, (p - points[order[0]]).cwiseAbs().maxCoeff());
-  const double straight = straight_tolerance * extent * extent;
+  // Without a tolerance: it would take corners for points of a side where a side runs along the order.
   const auto turns_left = [&](Index i, Index j, Index k) {
     const Vector2d u = points[j] - points[i], v = points[k] - points[j];
-    return u.x() * v.y() - u.y() * v.x() > straight;
+    return u.x() * v.y() - u.y() * v.x() > 0;
   };
   for (int side = 0; side < 2; ++side) {  // lower chain from left to right, upper chain back
     const std::size_t base = polygon.size();
@@ -41,29 +34,34 @@ std::vector<Index> convex_polygon(std::span<const Vector2d> points) {
   return polygon;
 }
 
-Vector2d least_rectangle(std::span<const Vector2d> points) {
-  const std::vector<Index> polygon = convex_polygon(points);
+Rectangle least_rectangle_of(std::span<const Vector2d> polygon) {
   const std::size_t count = polygon.size();
-  const auto at = [&](std::size_t i) { return points[polygon[i % count]]; };
-  const auto edge = [&](std::size_t i) { return Vector2d(at(i + 1) - at(i)); };
-  double least = std::numeric_limits<double>::infinity();
-  Vector2d best(1, 0);
+  const auto next = [&](std::size_t i) { return i + 1 == count ? 0 : i + 1; };
+  const auto edge = [&](std::size_t i) { return Vector2d(polygon[next(i)] - polygon[i]); };
+  // At most once around: in a polygon that is flat to rounding all sides may seem to rise.
+  const auto climb = [&](std::size_t& corner, const Vector2d& direction) {
+    for (std::size_t step = 0; step < count && edge(corner).dot(direction) > 0; ++step) corner = next(corner);
+  };
+  Rectangle least;
+  // The corners farthest along, across and back only move forward as the side goes round.
   for (std::size_t i = 0, right = 0, top = 0, left = 0; i < count && count > 1; ++i) {
     const Vector2d along = edge(i).normalized(), across(-along.y(), along.x());
-    // The corners farthest along, across and back only move forward as the edge goes round.
-    right = std::max(right, i + 1);
-    while (edge(right).dot(along) > 0) ++right;
-    top = std::max(top, right);
-    while (edge(top).dot(across) > 0) ++top;
-    left = std::max(left, top);
-    while (edge(left).dot(along) < 0) ++left;
-    const double area = (at(right) - at(left)).dot(along) * (at(top) - at(i)).dot(across);
-    if (area < least) {
-      least = area;
-      best = along;
-    }
+    if (i == 0) right = 1;
+    climb(right, along);
+    if (i == 0) top = right;
+    climb(top, across);
+    if (i == 0) left = top;
+    climb(left, -along);
+    const double area = (polygon[right] - polygon[left]).dot(along) * (polygon[top] - polygon[i]).dot(across);
+    if (area < least.area) least = {along, area};
   }
-  return best;
+  return least;
+}
+
+Rectangle least_rectangle(std::span<const Vector2d> points) {
+  std::vector<Vector2d> corners;
+  for (const Index i : convex_polygon(points)) corners.push_back(points[i]);
+  return least_rectangle_of(corners);
 }
 
 }  // namespace toposcope::geometry

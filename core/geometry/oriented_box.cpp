@@ -124,7 +124,7 @@ Box oriented_box(std::span<const Vec3> points) {
     std::vector<Eigen::Vector2d> flat;
     flat.reserve(points.size());
     for (const Vec3& p : blocked.points()) flat.push_back(p.head<2>());
-    const Eigen::Vector2d along = geometry::least_rectangle(flat);
+    const Eigen::Vector2d along = geometry::least_rectangle(flat).along;
     axes = {Vec3(along.x(), along.y(), 0), Vec3(-along.y(), along.x(), 0), Vec3::UnitZ()};
   }
 

@@ -10,14 +10,21 @@ Nearest nearest(const Polyline& polyline, const Vec3& point) {
   Nearest best;
   best.squared = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < polyline.segments(); ++k) {
-    const Vec3& tail = polyline.vertices[polyline.tail(k)];
-    const Vec3 along = polyline.vertices[polyline.head(k)] - tail, arm = point - tail;
-    const double length2 = along.squaredNorm();
-    const double t = length2 > 0 ? std::clamp(arm.dot(along) / length2, 0.0, 1.0) : 0;
-    const Vec3 difference = arm - t * along;
-    if (difference.squaredNorm() < best.squared) best = {difference.squaredNorm(), k, t, difference};
+    const Segment segment(polyline.vertices[polyline.tail(k)], polyline.vertices[polyline.head(k)]);
+    Nearest at = nearest({&segment, 1}, point);
+    at.segment = k;
+    if (at.squared < best.squared) best = at;
   }
   return best;
+}
+
+double coarse_width(const Problem& problem) {
+  return std::max(0.4, 3 * problem.scale);
+}
+
+double coarse_gap(const Problem& problem, std::size_t points) {
+  const double spacing = 4 / static_cast<double>(points);  // of points along a curve of length 4 spreads
+  return 1.5 * std::max(problem.scale, spacing);
 }
 
 std::vector<Vec3> representatives(std::span<const Vec3> points, const Vec3& center, std::size_t limit) {

@@ -3,6 +3,8 @@
 
 // Polylines and the ways to fit them. All work on any scale and in any pose.
 
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,6 +33,27 @@ struct Nearest {
 };
 Nearest nearest(const Polyline& polyline, const Vec3& point);
 
+/// A segment, ready for many points.
+struct Segment {
+  Vec3 tail, along;
+  double inverse_length2;
+  Segment(const Vec3& from, const Vec3& to) : tail(from), along(to - from) {
+    const double length2 = along.squaredNorm();
+    inverse_length2 = length2 > 0 ? 1 / length2 : 0;
+  }
+};
+inline Nearest nearest(std::span<const Segment> segments, const Vec3& point) {
+  Nearest best;
+  best.squared = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    const Vec3 arm = point - segments[k].tail;
+    const double t = std::clamp(arm.dot(segments[k].along) * segments[k].inverse_length2, 0.0, 1.0);
+    const Vec3 difference = arm - t * segments[k].along;
+    if (const double d2 = difference.squaredNorm(); d2 < best.squared) best = {d2, k, t, difference};
+  }
+  return best;
+}
+
 /// At most `limit` points, evenly spread over the ranking by distance from `center`: the choice depends neither on
 /// the pose nor on the order of the points.
 std::vector<Vec3> representatives(std::span<const Vec3> points, const Vec3& center, std::size_t limit);
@@ -54,6 +77,11 @@ struct Problem {
   std::size_t segments = 1;
   bool closed = false;
 };
+
+/// Distances of the coarse cost: beyond the width a point counts less and less; a piece of polyline may have the gap
+/// from `points` points.
+double coarse_width(const Problem& problem);
+double coarse_gap(const Problem& problem, std::size_t points);
 
 /// Coarse cost of a polyline, from the points to it and from it to the points: what starts compete by.
 double two_sided_cost(const Problem& problem, const Polyline& polyline);

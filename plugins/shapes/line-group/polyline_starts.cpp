@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "polyline.h"
+#include "objective.h"
 
 namespace toposcope::line_group {
 namespace {
@@ -125,9 +125,9 @@ void extend_paths(const std::vector<Vec3>& extremes, std::size_t length, std::ve
 /// The best of all paths over extreme points: they find corners wherever the box has none.
 void add_extreme_starts(const Problem& problem, std::vector<Polyline>& all) {
   const std::size_t length = problem.segments + (problem.closed ? 0 : 1);
-  Problem coarse = problem;
-  coarse.points = representatives(problem.points, Vec3::Zero(), coarse_points);
+  const std::vector<Vec3> coarse = representatives(problem.points, Vec3::Zero(), coarse_points);
   const std::vector<Vec3> extremes = extreme_points(problem.points, extreme_count);
+  const PathCosts costs(extremes, coarse, coarse_width(problem), coarse_gap(problem, coarse.size()));
   std::vector<std::size_t> path;
   std::vector<std::vector<std::size_t>> paths;
   extend_paths(extremes, length, path, paths);
@@ -137,7 +137,7 @@ void add_extreme_starts(const Problem& problem, std::vector<Polyline>& all) {
     if (problem.closed && each.front() != *std::min_element(each.begin(), each.end())) continue;
     Polyline polyline{{}, problem.closed};
     for (const std::size_t i : each) polyline.vertices.push_back(extremes[i]);
-    ranking.emplace_back(two_sided_cost(coarse, polyline), std::move(polyline));
+    ranking.emplace_back(costs.of(each, problem.closed), std::move(polyline));
   }
   const std::size_t few = std::min(best_paths, ranking.size());
   std::partial_sort(ranking.begin(), ranking.begin() + static_cast<std::ptrdiff_t>(few), ranking.end(),

@@ -108,6 +108,24 @@ TEST(OrientedBox, OfCuboidsInAnyPose) {
   }
 }
 
+// The sides' points lie in line but for rounding, in any order along them.
+TEST(OrientedBox, OfRectanglesInAnyPose) {
+  std::mt19937_64 random(5);
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const std::size_t columns = 1 + random() % 6, rows = 1 + random() % 6;
+    const double width = 1 + static_cast<double>(random() % 100), height = 1 + static_cast<double>(random() % 100);
+    const Eigen::Matrix3d rotation = test::random_rotation(seed);
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i <= columns; ++i)
+      for (std::size_t j = 0; j <= rows; ++j)
+        points.emplace_back(rotation * Vec3(width * static_cast<double>(i) / static_cast<double>(columns),
+                                            height * static_cast<double>(j) / static_cast<double>(rows), 0));
+    const Box box = oriented_box(points);
+    EXPECT_NEAR(box.a(), std::max(width, height), 1e-11) << seed;
+    EXPECT_NEAR(box.b(), std::min(width, height), 1e-11) << seed;
+  }
+}
+
 TEST(OrientedBox, WithinOnePercentOfASearchOverRotations) {
   for (int kind = 0; kind < 3; ++kind)
     for (std::size_t count : {12U, 60U, 400U}) {
