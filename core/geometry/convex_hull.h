@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,16 +30,8 @@ std::vector<Triangle> convex_hull(std::span<const Vec3> points);
 /// Corners of the convex polygon around points of the plane, counter-clockwise, as indices (Andrew's monotone chain).
 std::vector<Index> convex_polygon(std::span<const Eigen::Vector2d> points);
 
-/// By the direction of one side.
-struct Rectangle {
-  Eigen::Vector2d along = Eigen::Vector2d::UnitX();
-  double area = std::numeric_limits<double>::infinity();
-};
-/// The rectangle of least area around a convex polygon, counter-clockwise. It has a side along one of the polygon's
-/// (Freeman and Shapira 1975); found by rotating calipers (Toussaint 1983). Infinite for fewer than two corners.
-Rectangle least_rectangle_of(std::span<const Eigen::Vector2d> polygon);
-
-/// The same around points of the plane.
-Rectangle least_rectangle(std::span<const Eigen::Vector2d> points);
+/// Direction of a side of the rectangle of least area around points of the plane. It lies along a side of their convex
+/// polygon (Freeman and Shapira 1975); found by rotating calipers (Toussaint 1983).
+Eigen::Vector2d least_rectangle(std::span<const Eigen::Vector2d> points);
 
 }  // namespace toposcope::geometry

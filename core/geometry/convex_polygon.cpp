@@ -34,34 +34,33 @@ std::vector<Index> convex_polygon(std::span<const Vector2d> points) {
   return polygon;
 }
 
-Rectangle least_rectangle_of(std::span<const Vector2d> polygon) {
+Vector2d least_rectangle(std::span<const Vector2d> points) {
+  const std::vector<Index> polygon = convex_polygon(points);
   const std::size_t count = polygon.size();
-  const auto next = [&](std::size_t i) { return i + 1 == count ? 0 : i + 1; };
-  const auto edge = [&](std::size_t i) { return Vector2d(polygon[next(i)] - polygon[i]); };
+  const auto at = [&](std::size_t i) { return points[polygon[i % count]]; };
+  const auto edge = [&](std::size_t i) { return Vector2d(at(i + 1) - at(i)); };
   // At most once around: in a polygon that is flat to rounding all sides may seem to rise.
   const auto climb = [&](std::size_t& corner, const Vector2d& direction) {
-    for (std::size_t step = 0; step < count && edge(corner).dot(direction) > 0; ++step) corner = next(corner);
+    for (std::size_t step = 0; step < count && edge(corner).dot(direction) > 0; ++step) ++corner;
   };
-  Rectangle least;
-  // The corners farthest along, across and back only move forward as the side goes round.
+  double least = std::numeric_limits<double>::infinity();
+  Vector2d best(1, 0);
   for (std::size_t i = 0, right = 0, top = 0, left = 0; i < count && count > 1; ++i) {
     const Vector2d along = edge(i).normalized(), across(-along.y(), along.x());
-    if (i == 0) right = 1;
+    // The corners farthest along, across and back only move forward as the edge goes round.
+    right = std::max(right, i + 1);
     climb(right, along);
-    if (i == 0) top = right;
+    top = std::max(top, right);
     climb(top, across);
-    if (i == 0) left = top;
+    left = std::max(left, top);
     climb(left, -along);
-    const double area = (polygon[right] - polygon[left]).dot(along) * (polygon[top] - polygon[i]).dot(across);
-    if (area < least.area) least = {along, area};
+    const double area = (at(right) - at(left)).dot(along) * (at(top) - at(i)).dot(across);
+    if (area < least) {
+      least = area;
+      best = along;
+    }
   }
-  return least;
-}
-
-Rectangle least_rectangle(std::span<const Vector2d> points) {
-  std::vector<Vector2d> corners;
-  for (const Index i : convex_polygon(points)) corners.push_back(points[i]);
-  return least_rectangle_of(corners);
+  return best;
 }
 
 }  // namespace toposcope::geometry

@@ -71,15 +71,33 @@ Candidate FrameSearch::best_about(const Vec3& axis) {
   const Eigen::ArrayXd& facing = area_columns_.project(axis);
   const Vec3 u = any_perpendicular(axis), v = axis.cross(u);
   shadow_.clear();
+  sides_.clear();
   for (const Edge& e : edges_) {
-    const bool left = facing[e.left] > 0;
-    if (left == (facing[e.right] > 0)) continue;
-    const Vec3& from = corners_[left ? e.from : e.to];
+    if ((facing[e.left] > 0) == (facing[e.right] > 0)) continue;
+    const Vec3& from = corners_[facing[e.left] > 0 ? e.from : e.to];
+    const Vec3 along = corners_[facing[e.left] > 0 ? e.to : e.from] - from;
     shadow_.emplace_back(u.dot(from), v.dot(from));
+    const Eigen::Vector2d side(u.dot(along), v.dot(along));
+    if (side.squaredNorm() > 0) sides_.push_back(side);  // an edge along the axis has no direction here
   }
-  const Rectangle least = least_rectangle(shadow_);
-  return {{least.along.x() * u + least.along.y() * v, least.along.x() * v - least.along.y() * u, axis},
-          least.area * width(axis)};
+  double least = std::numeric_limits<double>::infinity();
+  Eigen::Vector2d best(1, 0);
+  for (const Eigen::Vector2d& side : sides_) {
+    const Eigen::Vector2d along = side.normalized(), across(-along.y(), along.x());
+    const Eigen::Array2d of_x(along.x(), across.x()), of_y(along.y(), across.y());
+    Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Eigen::Vector2d& p : shadow_) {
+      const Eigen::Array2d q = of_x * p.x() + of_y * p.y();
+      low = low.min(q);
+      high = high.max(q);
+    }
+    const double area = (high - low).prod();
+    if (area < least) {
+      least = area;
+      best = along;
+    }
+  }
+  return {{best.x() * u + best.y() * v, best.x() * v - best.y() * u, axis}, least * width(axis)};
 }
 
 std::vector<Candidate> FrameSearch::flush_with_faces(std::size_t enough, std::size_t most) {

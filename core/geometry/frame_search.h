@@ -40,8 +40,9 @@ class FrameSearch {
   double width(const Vec3& axis) { return columns_.width(axis); }
   double volume(const Axes& axes) { return width(axes[0]) * width(axes[1]) * width(axes[2]); }
 
-  /// The frame with the given third axis whose rectangle across it is least: around the polyhedron's shadow, whose
-  /// corners are those of edges between a face that looks along the axis and one that does not.
+  /// The frame with the given third axis whose rectangle across it is least. One side of that rectangle lies along a
+  /// side of the polyhedron's shadow (Freeman and Shapira 1975), and the shadow's sides are the edges between a face
+  /// that looks along the axis and one that does not.
   Candidate best_about(const Vec3& axis);
 
   /// Frames with an axis along the normal of a face, or along a coordinate axis; least volume first. Those of least
@@ -67,7 +68,7 @@ class FrameSearch {
   std::vector<Vec3> areas_;  ///< normals of the faces, as long as their areas
   std::vector<Edge> edges_;
   Columns columns_, area_columns_;
-  std::vector<Eigen::Vector2d> shadow_;  // scratch of best_about, to spare allocations
+  std::vector<Eigen::Vector2d> shadow_, sides_;  // scratch of best_about, to spare allocations
 };
 
 }  // namespace toposcope::geometry

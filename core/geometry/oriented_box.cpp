@@ -18,8 +18,8 @@ constexpr std::size_t few_points = 100, most_points = 1024;  ///< of which the w
 constexpr std::size_t most_extremes = 75;  ///< of the points farthest out, above which only these make the hull
 constexpr std::size_t most_corners = 128;  ///< of the whole hull
 constexpr std::size_t enough_candidates = 16, most_candidates = 24;  ///< frames flush with a face of the hull
-constexpr std::size_t descended_corners = 300;  ///< corners of the hull times frames that are improved
-constexpr std::size_t polished_corners = 60;    ///< corners of the hull times frames that are improved further
+constexpr std::size_t descended_corners = 150;  ///< corners of the hull times frames that are improved
+constexpr std::size_t polished_corners = 30;    ///< corners of the hull times frames that are improved further
 constexpr double largest_tilt = 0.12, smallest_tilt = 0.01;  ///< radians
 constexpr int most_rounds = 4;                               ///< of adding what lies outside of the box
 constexpr double same_volume = 1e-9;                         ///< relative difference of volumes of one and the same box
@@ -124,7 +124,7 @@ Box oriented_box(std::span<const Vec3> points) {
     std::vector<Eigen::Vector2d> flat;
     flat.reserve(points.size());
     for (const Vec3& p : blocked.points()) flat.push_back(p.head<2>());
-    const Eigen::Vector2d along = geometry::least_rectangle(flat).along;
+    const Eigen::Vector2d along = geometry::least_rectangle(flat);
     axes = {Vec3(along.x(), along.y(), 0), Vec3(-along.y(), along.x(), 0), Vec3::UnitZ()};
   }
 

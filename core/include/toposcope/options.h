@@ -28,6 +28,7 @@ struct OptionValue {
   std::string name;
   double number = 0;  ///< real, integer, boolean (0 or 1); angles stay in the unit of the table
   std::string text;
+  bool operator==(const OptionValue&) const = default;
 };
 
 /// Read access to checked values. Asking for a name that the table does not declare throws std::logic_error.

@@ -24,19 +24,13 @@ struct FitJob {
   std::vector<Index> features;
 };
 
-bool same_arguments(const std::vector<OptionValue>& a, const std::vector<OptionValue>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const OptionValue& x, const OptionValue& y) {
-    return x.name == y.name && x.number == y.number && x.text == y.text;
-  });
-}
-
 std::vector<FitJob> fit_jobs(const Model& model, const Stations& stations) {
   std::vector<FitJob> jobs;
   for (Index f = 0; f < model.features.size(); ++f) {
     const ModelFeature& feature = model.features[f];
     const auto same = std::find_if(jobs.begin(), jobs.end(), [&](const FitJob& job) {
       return job.feature->shape.plugin == feature.shape.plugin && job.feature->worksets == feature.worksets &&
-             same_arguments(*job.arguments, stations.shape_arguments[f]);
+             *job.arguments == stations.shape_arguments[f];
     });
     if (same != jobs.end())
       same->features.push_back(f);
@@ -229,11 +223,18 @@ void select(const FitJob& job, const WorkingSetGroups& groups, const JobResult& 
   }
 }
 
-std::vector<Box> boxes_of(const WorkingSets& sets, const MeshView& mesh, Context& context) {
+/// Of the sets that a feature of the model asks for.
+std::vector<Box> boxes_of(const WorkingSets& sets, const Model& model, const MeshView& mesh, Context& context) {
+  std::vector<char> asked(sets.type_names.size(), 0);
+  for (const ModelFeature& feature : model.features)
+    for (const std::vector<std::string>* types : {&feature.worksets, &feature.second_look})
+      for (std::size_t t = 0; t < asked.size(); ++t)
+        if (std::find(types->begin(), types->end(), sets.type_names[t]) != types->end()) asked[t] = 1;
   std::vector<Box> boxes(sets.size());
   context.parallel_for(sets.size(), grain, [&](std::size_t first, std::size_t last) {
     std::vector<Vec3> points;
     for (std::size_t s = first; s < last; ++s) {
+      if (asked[sets.types[s]] == 0) continue;
       points.clear();
       for (Index v : sets[s]) points.push_back(mesh.positions[v]);
       boxes[s] = oriented_box(points);
@@ -256,7 +257,7 @@ void construct(const FitJob& job, const WorkingSetGroups& groups, const MeshView
 ConstructedFeatures construct_features(const MeshView& mesh, const Model& model, const WorkingSets& sets,
                                        const BitMatrix& overlap, const Stations& stations, Context& context) {
   ConstructedFeatures features;
-  features.set_boxes = boxes_of(sets, mesh, context);
+  features.set_boxes = boxes_of(sets, model, mesh, context);
   features.of_feature.resize(model.features.size());
   const std::vector<double> vertex_areas = areas_of_vertices(mesh);
   const std::vector<FitJob> jobs = fit_jobs(model, stations);

@@ -54,16 +54,22 @@ void check(const RelationResult& result) {
 /// A relationship made ready for one mesh: its expressions evaluated.
 struct BoundRelation {
   const RelationTester* tester;
+  bool ordered;
   std::vector<OptionValue> arguments;
   std::optional<double> tolerance;  ///< rad or mesh unit
 
   BoundRelation(const MeshView& mesh, const Model& model, Index relationship, const Stations& stations)
       : tester(stations.relations.at(model.relationships[relationship].plugin).get()),
+        ordered(stations.relation_ordered[relationship]),
         arguments(
             relation_arguments(mesh, model.relationships[relationship], stations.relation_defaults[relationship])) {
     if (const auto& given = model.relationships[relationship].tolerance)
       tolerance = positive_on_mesh(*given, {mesh.box, Box{}}, model.relationships[relationship].where, "tolerance") *
                   (stations.relation_units[relationship] == "deg" ? pi / 180 : 1);
+  }
+
+  bool operator==(const BoundRelation& other) const {
+    return tester == other.tester && tolerance == other.tolerance && arguments == other.arguments;
   }
 
   RelationResult test(const MeshView& mesh, std::span<const ConstructedFeature* const> features,
@@ -95,19 +101,29 @@ LabelingConstraint empty_constraint(const Relationship& relationship, const Labe
   return constraint;
 }
 
-/// Fills a relationship's tables: one row of work per combination of all but the last variable.
+/// Fills a relationship's tables: one row of work per combination of all but the last variable. Where the first two
+/// features have the same candidates and their order does not matter, each pair of candidates is tested once.
 void fill_constraint(LabelingConstraint& constraint, const MeshView& mesh, const BoundRelation& relation,
                      const LabelingProblem& problem, const ConstructedFeatures& features,
                      const ProbabilityModel& probability, Context& context) {
   const std::size_t arity = constraint.scope.size();
   std::vector<std::size_t> domain;
   for (Index v : constraint.scope) domain.push_back(problem.variables[v].domain());
-  const std::size_t row = domain.back();
+  const std::size_t row = domain.back(), pairs = arity < 2 ? 1 : domain[0] * domain[1];
+  const std::size_t entries_of_a_pair = constraint.costs.size() / pairs;
+  const bool symmetric =
+      arity >= 2 && !relation.ordered &&
+      problem.variables[constraint.scope[0]].candidates == problem.variables[constraint.scope[1]].candidates;
+  const auto tested = [&](std::size_t entry) {
+    const std::size_t pair = entry / entries_of_a_pair;
+    return !symmetric || pair / domain[1] <= pair % domain[1];
+  };
   context.parallel_for(constraint.costs.size() / row, grain, [&](std::size_t first, std::size_t last) {
     std::vector<Index> ids(arity);
     std::vector<const ConstructedFeature*> given(arity);
     std::vector<RelationOperand> operands;
     for (std::size_t entry = first * row; entry < last * row && !context.cancelled(); ++entry) {
+      if (!tested(entry)) continue;
       std::size_t rest = entry;
       bool missing = false;
       for (std::size_t i = arity; i-- > 0;) {
@@ -134,6 +150,15 @@ void fill_constraint(LabelingConstraint& constraint, const MeshView& mesh, const
                                     : -relation_evidence(probability, result);
     }
   });
+  if (!symmetric) return;
+  for (std::size_t i = 0; i < domain[0]; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::size_t to = (i * domain[1] + j) * entries_of_a_pair, from = (j * domain[1] + i) * entries_of_a_pair;
+      std::copy_n(constraint.costs.begin() + static_cast<std::ptrdiff_t>(from), entries_of_a_pair,
+                  constraint.costs.begin() + static_cast<std::ptrdiff_t>(to));
+      std::copy_n(constraint.violations.begin() + static_cast<std::ptrdiff_t>(from), entries_of_a_pair,
+                  constraint.violations.begin() + static_cast<std::ptrdiff_t>(to));
+    }
 }
 
 }  // namespace
@@ -175,17 +200,35 @@ LabelingProblem build_problem(const MeshView& mesh, const Model& model, const Co
   problem.candidate_count = count;
   problem.conflict_bits = std::move(conflicts.bits);
 
+  std::vector<BoundRelation> relations;
   for (Index r = 0; r < model.relationships.size(); ++r) {
     const Relationship& relationship = model.relationships[r];
+    relations.emplace_back(mesh, model, r, stations);
     const auto same = [&](Index v) { return problem.variables[v].candidates == known->variables[v].candidates; };
     if (known && std::all_of(relationship.features.begin(), relationship.features.end(), same)) {
       problem.constraints.push_back(known->constraints[r]);
       continue;
     }
+    // Port and starboard, wings and stabilisers: one table serves all that ask the same of the same candidates.
+    const auto same_candidates = [&](Index v, Index w) {
+      return problem.variables[v].candidates == problem.variables[w].candidates;
+    };
+    Index twin = 0;
+    while (twin < r &&
+           !(relations[twin] == relations[r] && std::equal(relationship.features.begin(), relationship.features.end(),
+                                                           problem.constraints[twin].scope.begin(),
+                                                           problem.constraints[twin].scope.end(), same_candidates)))
+      ++twin;
+    if (twin < r) {
+      LabelingConstraint constraint = problem.constraints[twin];
+      constraint.name = relationship.name;
+      constraint.scope = relationship.features;
+      problem.constraints.push_back(std::move(constraint));
+      continue;
+    }
     LabelingConstraint& constraint = problem.constraints.emplace_back(empty_constraint(relationship, problem));
-    const BoundRelation relation(mesh, model, r, stations);
     guard(relationship.plugin,
-          [&] { fill_constraint(constraint, mesh, relation, problem, features, stations.probability, context); });
+          [&] { fill_constraint(constraint, mesh, relations[r], problem, features, stations.probability, context); });
     context.progress(static_cast<double>(r + 1) / static_cast<double>(model.relationships.size()));
   }
   return problem;

@@ -23,7 +23,7 @@ void PlanePath::add_line(const Vec2& from, const Vec2& to, double shortest) {
   const Vec2 step = to - from;
   if (step.norm() <= shortest) return;
   const Vec2 normal = right_of(step.normalized());
-  elements_.push_back({from, to, normal, normal, from, 0});
+  elements_.push_back({from, to, normal, normal, from, 0, 0});
 }
 
 PlanePath::PlanePath(const std::vector<Corner>& corners) {
@@ -52,6 +52,7 @@ PlanePath::PlanePath(const std::vector<Corner>& corners) {
       arc.from = arc_begin;
       arc.to = points[i] + tangent * next;
       arc.turn = angle > 0 ? 1 : -1;
+      arc.radius = radius;
       arc.center = arc.from - arc.turn * radius * right_of(along);
       arc.normal_from = right_of(along);
       arc.normal_to = right_of(next);
@@ -67,6 +68,13 @@ PlanePath::PlanePath(const std::vector<Corner>& corners) {
       last = arc.to;
     }
   }
+  joints_.push_back({elements_.front().from, elements_.front().normal_from, true});
+  for (std::size_t i = 1; i < elements_.size(); ++i) {
+    const Vec2& normal = elements_[i - 1].normal_to;
+    const Vec2 bisector = (normal + elements_[i].normal_from).normalized();
+    joints_.push_back({elements_[i].from, bisector, normal.dot(bisector) < 1 - 1e-12});
+  }
+  joints_.push_back({elements_.back().to, elements_.back().normal_to, true});
 }
 
 PlanePath::Closest PlanePath::closest(const Vec2& query) const {
@@ -78,6 +86,7 @@ PlanePath::Closest PlanePath::closest(const Vec2& query) const {
     best_distance = distance;
     best = {point, normal, sharp};
   };
+  std::size_t joint_offered = 0;  // the last one: neighbours share it
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Element& element = elements_[i];
     if (element.turn == 0) {
@@ -89,26 +98,16 @@ PlanePath::Closest PlanePath::closest(const Vec2& query) const {
       }
     } else {
       const Vec2 spoke = query - element.center;
-      const double length = spoke.norm();
-      if (length > 0 && element.turn * cross(element.from - element.center, spoke) >= 0 &&
-          element.turn * cross(spoke, element.to - element.center) >= 0) {
-        const Vec2 outward = spoke / length;
-        offer(element.center + (element.from - element.center).norm() * outward, element.turn * outward, false);
+      if (element.turn * cross(element.from - element.center, spoke) >= 0 &&
+          element.turn * cross(spoke, element.to - element.center) >= 0 && spoke != Vec2::Zero()) {
+        const Vec2 outward = spoke.normalized();
+        offer(element.center + element.radius * outward, element.turn * outward, false);
         continue;
       }
     }
-    if (i == 0) offer(element.from, element.normal_from, true);
-    if (i + 1 == elements_.size()) {
-      offer(element.to, element.normal_to, true);
-    } else {
-      // The bisecting normal tells the inside at a sharp corner, where both neighbours are equally near.
-      const Vec2 bisector = (element.normal_to + elements_[i + 1].normal_from).normalized();
-      offer(element.to, bisector, element.normal_to.dot(bisector) < 1 - 1e-12);
-    }
-    if (i > 0) {
-      const Vec2 bisector = (element.normal_from + elements_[i - 1].normal_to).normalized();
-      offer(element.from, bisector, element.normal_from.dot(bisector) < 1 - 1e-12);
-    }
+    if (i == 0 || joint_offered != i) offer(joints_[i].point, joints_[i].normal, joints_[i].sharp);
+    offer(joints_[i + 1].point, joints_[i + 1].normal, joints_[i + 1].sharp);
+    joint_offered = i + 1;
   }
   return best;
 }

@@ -39,11 +39,18 @@ class PlanePath {
     Vec2 from = Vec2::Zero(), to = Vec2::Zero();
     Vec2 normal_from = Vec2::Zero(), normal_to = Vec2::Zero();  ///< at the ends; equal for a line
     Vec2 center = Vec2::Zero();
+    double radius = 0;
     double turn = 0;  ///< 0 a line, +1 an arc that turns left (convex material), -1 one that turns right
+  };
+  /// Between two elements, or an end of the path.
+  struct Joint {
+    Vec2 point, normal;  ///< the bisecting normal tells the inside at a sharp corner, where both are equally near
+    bool sharp;
   };
   void add_line(const Vec2& from, const Vec2& to, double shortest);
 
   std::vector<Element> elements_;
+  std::vector<Joint> joints_;  ///< element i lies between joints i and i + 1
   std::vector<Vec2> crests_, begins_, ends_;
 };
 
