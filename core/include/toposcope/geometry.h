@@ -32,6 +32,10 @@ double enclosing_diameter(std::span<const Box> boxes);
 /// points that matter (at least the extremes).
 std::vector<Index> hull_vertices(std::span<const Vec3> points);
 
+/// Least distance between a point of the one set and a point of the other, in time about proportional to the points.
+/// \pre both sets not empty, coordinates finite
+double least_distance(std::span<const Vec3> first, std::span<const Vec3> second);
+
 /// Any unit vector perpendicular to `direction`.
 Vec3 any_perpendicular(const Vec3& direction);
 
