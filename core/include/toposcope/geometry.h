@@ -32,6 +32,10 @@ double enclosing_diameter(std::span<const Box> boxes);
 /// points that matter (at least the extremes).
 std::vector<Index> hull_vertices(std::span<const Vec3> points);
 
+/// Corners of the convex polygon around the points as they are seen along a direction: indices, counter-clockwise where
+/// the direction points at the eye. At most two where the points are seen as a point or a line.
+std::vector<Index> convex_outline(std::span<const Vec3> points, const Vec3& direction);
+
 /// Least distance between a point of the one set and a point of the other, in time about proportional to the points.
 /// \pre both sets not empty, coordinates finite
 double least_distance(std::span<const Vec3> first, std::span<const Vec3> second);

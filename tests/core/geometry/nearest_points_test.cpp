@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
@@ -28,6 +29,22 @@ TEST(LeastDistance, IsThatOfBruteForce) {
   }
   const std::vector<Vec3> same(30, Vec3(1, 2, 3));
   EXPECT_EQ(least_distance(same, same), 0);
+}
+
+/// From whatever side: no point sticks out of the outline, and each corner does out of the others.
+TEST(ConvexOutline, IsCounterClockwiseAndHoldsAllPoints) {
+  test::Random random(4);
+  for (const Vec3& direction : {Vec3(0, 0, 1), Vec3(1, -2, 0.5), Vec3(-3, 0, 0)}) {
+    const std::vector<Vec3> points = cloud(100, random);
+    const std::vector<Index> outline = convex_outline(points, direction.normalized());
+    ASSERT_GT(outline.size(), 4U);
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Vec3 &a = points[outline[i]], &b = points[outline[(i + 1) % outline.size()]];
+      for (const Vec3& p : points) EXPECT_GE(direction.dot((b - a).cross(p - a)), -1e-9);
+    }
+  }
+  EXPECT_EQ(convex_outline(std::vector<Vec3>{{0, 0, 0}, {0, 0, 5}}, Vec3::UnitZ()).size(), 2U) << "twice";
+  EXPECT_EQ(convex_outline(std::vector<Vec3>{{0, 0, 0}, {1, 1, 5}, {2, 2, 1}}, Vec3::UnitZ()).size(), 2U);
 }
 
 }  // namespace
