@@ -56,4 +56,18 @@ SegmentPoint closest_on_segment(const Vec3& p, const Vec3& q, const Vec3& x);
 /// Points along the polyline p0 p1 ..., spaced at most `step`, corners included, at most `limit` points.
 std::vector<Vec3> resample(std::span<const Vec3> polyline, double step, std::size_t limit = 512);
 
+/// The part of a turn that has points.
+class TurnCoverage {
+ public:
+  /// \param turn  length of the turn, in mean edges
+  explicit TurnCoverage(double turn);
+  /// A point stands for an edge length of arc about itself. \param angle  rad, -pi to pi  \param turn  as above, at the
+  /// point
+  void add(double angle, double turn);
+  double part() const;
+
+ private:
+  std::vector<char> filled_;
+};
+
 }  // namespace toposcope

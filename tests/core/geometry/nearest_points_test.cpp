@@ -47,5 +47,14 @@ TEST(ConvexOutline, IsCounterClockwiseAndHoldsAllPoints) {
   EXPECT_EQ(convex_outline(std::vector<Vec3>{{0, 0, 0}, {1, 1, 5}, {2, 2, 1}}, Vec3::UnitZ()).size(), 2U);
 }
 
+TEST(TurnCoverage, CountsArcsWithinHalfAnEdge) {
+  TurnCoverage covered(100);
+  EXPECT_EQ(covered.part(), 0);
+  for (int i = 0; i < 50; ++i) covered.add(-pi + 2 * pi * (i + 0.5) / 100, 100);
+  EXPECT_NEAR(covered.part(), 0.5, 0.01);
+  for (int i = 50; i < 100; ++i) covered.add(-pi + 2 * pi * (i + 0.5) / 100, 100);
+  EXPECT_EQ(covered.part(), 1);
+}
+
 }  // namespace
 }  // namespace toposcope
