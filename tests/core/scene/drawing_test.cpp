@@ -112,6 +112,20 @@ TEST(Drawing, ConesEndWithTheirRegionAndFaceOutwards) {
   EXPECT_TRUE(draw_shape(cone, {}).empty());
 }
 
+TEST(Drawing, ToriAreClosed) {
+  const Drawing ring = draw_shape(
+      std::vector<ShapeParameter>{
+          {"center", 3, {0, 0, 0}}, {"axis", 3, {0, 0, 1}}, {"major_radius", 1, {5}}, {"minor_radius", 1, {2}}},
+      {});
+  const auto on_torus = [](const Vec3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 5, p.z()); };
+  for (const Vec3& p : ring.patches.at(0).positions) EXPECT_NEAR(on_torus(p), 2, rounding);
+  for (const std::vector<Vec3>& line : ring.lines)
+    for (const Vec3& p : line) EXPECT_NEAR(on_torus(p), 2, rounding);
+  EXPECT_EQ(ring.lines.size(), 6U);
+  const double volume = 2 * pi * pi * 5 * 4;
+  EXPECT_NEAR(enclosed(ring.patches[0]) / 6, volume, 0.04 * volume);
+}
+
 TEST(Drawing, ShapesOfOthersAreTheirOutline) {
   const std::vector<Vec3> outline = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
   const std::vector<ShapeParameter> helix = {{"pitch", 1, {2}}};
