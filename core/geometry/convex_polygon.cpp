@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "convex_hull.h"
+#include "toposcope/geometry.h"
 
 namespace toposcope::geometry {
 
@@ -64,3 +66,15 @@ Vector2d least_rectangle(std::span<const Vector2d> points) {
 }
 
 }  // namespace toposcope::geometry
+
+namespace toposcope {
+
+std::vector<Index> convex_outline(std::span<const Vec3> points, const Vec3& direction) {
+  const Vec3 right = any_perpendicular(direction), up = direction.cross(right).normalized();
+  std::vector<Eigen::Vector2d> seen;
+  seen.reserve(points.size());
+  for (const Vec3& p : points) seen.emplace_back((p - points[0]).dot(right), (p - points[0]).dot(up));
+  return geometry::convex_polygon(seen);
+}
+
+}  // namespace toposcope

@@ -32,6 +32,14 @@ double enclosing_diameter(std::span<const Box> boxes);
 /// points that matter (at least the extremes).
 std::vector<Index> hull_vertices(std::span<const Vec3> points);
 
+/// Corners of the convex polygon around the points as they are seen along a direction: indices, counter-clockwise where
+/// the direction points at the eye. At most two where the points are seen as a point or a line.
+std::vector<Index> convex_outline(std::span<const Vec3> points, const Vec3& direction);
+
+/// Least distance between a point of the one set and a point of the other, in time about proportional to the points.
+/// \pre both sets not empty, coordinates finite
+double least_distance(std::span<const Vec3> first, std::span<const Vec3> second);
+
 /// Any unit vector perpendicular to `direction`.
 Vec3 any_perpendicular(const Vec3& direction);
 
@@ -47,5 +55,19 @@ SegmentPoint closest_on_segment(const Vec3& p, const Vec3& q, const Vec3& x);
 
 /// Points along the polyline p0 p1 ..., spaced at most `step`, corners included, at most `limit` points.
 std::vector<Vec3> resample(std::span<const Vec3> polyline, double step, std::size_t limit = 512);
+
+/// The part of a turn that has points.
+class TurnCoverage {
+ public:
+  /// \param turn  length of the turn, in mean edges
+  explicit TurnCoverage(double turn);
+  /// A point stands for an edge length of arc about itself. \param angle  rad, -pi to pi  \param turn  as above, at the
+  /// point
+  void add(double angle, double turn);
+  double part() const;
+
+ private:
+  std::vector<char> filled_;
+};
 
 }  // namespace toposcope

@@ -159,6 +159,37 @@ Drawing cylinder(const Frame& frame, double radius, std::span<const Vec3> region
   return drawing;
 }
 
+/// \param half_angle  rad; from the frame's origin along its normal
+Drawing cone(const Frame& frame, double half_angle, std::span<const Vec3> region) {
+  Drawing drawing;
+  if (region.empty()) return drawing;
+  double low = 1e300, high = 0;
+  for (const Vec3& p : region) {
+    const double height = std::max(0.0, (p - frame.origin).dot(frame.normal));
+    low = std::min(low, height), high = std::max(high, height);
+  }
+  const double slope = std::tan(half_angle);
+  if (low > 0) drawing.lines.push_back(circle(frame, low * slope, low));
+  drawing.lines.push_back(circle(frame, high * slope, high));
+  drawing.patches.push_back(
+      joined({open_ring(frame, low * slope, low, globe_around), open_ring(frame, high * slope, high, globe_around)}));
+  return drawing;
+}
+
+Drawing torus(const Frame& frame, double major, double minor) {
+  std::vector<std::vector<Vec3>> rings;
+  for (Index k = 0; k <= globe_along; ++k) {  // around the tube from inside over below
+    const double angle = pi * (2.0 * (k % globe_along) / globe_along - 1);
+    rings.push_back(open_ring(frame, major + minor * std::cos(angle), minor * std::sin(angle), 2 * globe_around));
+  }
+  Drawing drawing;
+  drawing.patches.push_back(joined(rings));
+  drawing.lines = {circle(frame, major + minor), circle(frame, major - minor)};
+  for (const Vec3& out : {frame.u, frame.v, Vec3(-frame.u), Vec3(-frame.v)})
+    drawing.lines.push_back(circle(Frame(frame.origin + major * out, out.cross(frame.normal)), minor));
+  return drawing;
+}
+
 Drawing segments(std::vector<Vec3> ends, bool closed) {
   Drawing drawing;
   drawing.points = ends;
@@ -181,6 +212,11 @@ Drawing draw_shape(std::span<const ShapeParameter> parameters, std::span<const V
   if (given.are({"center", "radius"})) return sphere(given.vector("center"), given.number("radius"));
   if (given.are({"point", "axis", "radius"}))
     return cylinder({given.vector("point"), given.vector("axis")}, given.number("radius"), region);
+  if (given.are({"apex", "axis", "half_angle"}))
+    return cone({given.vector("apex"), given.vector("axis")}, given.number("half_angle") * pi / 180, region);
+  if (given.are({"center", "axis", "major_radius", "minor_radius"}))
+    return torus({given.vector("center"), given.vector("axis")}, given.number("major_radius"),
+                 given.number("minor_radius"));
   if (given.has("endpoints"))
     return segments(given.points("endpoints"), given.has("closed") && given.number("closed") != 0);
   Drawing drawing;

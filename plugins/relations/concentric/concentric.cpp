@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The concentric relation of circles: dissertation 4.6, as one length instead of an angle and an angle.
+// The concentric relation: dissertation 4.6, as one length instead of an angle and an angle; for circles, and for
+// whatever else has an axis and a radius.
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +12,11 @@ namespace {
 
 using namespace toposcope;
 
-// Radius of a circle-like shape (plane-like with the measure `radius`), or 0.
+/// Radius of a shape that is round about its normal or direction, or 0: of a circle, cylinder, cone; a torus' ring.
 double radius_of(const FittedShape& shape) {
-  if (shape.orientation != Orientation::plane_like) return 0;
+  if (shape.orientation == Orientation::none) return 0;
   const Measure* radius = shape.measure("radius");
+  if (!radius) radius = shape.measure("major_radius");
   return radius ? radius->value : 0;
 }
 
@@ -29,7 +31,9 @@ class Concentric final : public RelationTester {
     RelationResult result;
     if (!(radius > 0)) {
       result.applicable = false;
-      result.why = "only circles are concentric: both shapes need a normal and a positive measure 'radius'";
+      result.why =
+          "only round shapes are concentric: both need a normal or direction, and a positive measure 'radius' or "
+          "'major_radius'";
       return result;
     }
     // The signs of the normals mean nothing: turn the second towards the first before taking their mean.
@@ -60,15 +64,15 @@ class Concentric final : public RelationTester {
 
 constexpr OptionSpec options[] = {
     {"tolerance_rel", OptionType::real, "smaller radii", "0.15", "0.0001", "10",
-     "largest displacement at which the circles count as concentric"},
+     "largest displacement at which the features count as concentric"},
 };
 
 }  // namespace
 
 TOPOSCOPE_PLUGIN(RelationTester, Concentric,
                  {.id = "concentric",
-                  .version = "1.0.0",
-                  .summary = "Two circles have one axis",
+                  .version = "1.1.0",
+                  .summary = "Two round features have one axis: circles, cylinders, cones, tori",
                   .citation = "Neal 1999, section 4.6",
                   .unit = "length",
                   .min_arity = 2,

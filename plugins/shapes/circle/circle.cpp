@@ -16,16 +16,6 @@ namespace {
 
 constexpr double radius_limit_diagonals = 100;
 constexpr std::size_t outline_limit = 512;
-constexpr double least_bins = 32, bins_per_edge = 4, max_bins = 1 << 18;
-
-/// Marks the bins of a turn within half of `width` of a position (turn and width: 1 = all). A point stands for an edge
-/// length of arc about itself: marking only the bin that holds it would leave gaps between points an edge apart.
-void fill(double position, double width, std::vector<char>& filled) {
-  const auto count = static_cast<std::ptrdiff_t>(filled.size());
-  const auto bin = [&](double x) { return static_cast<std::ptrdiff_t>(std::floor(x * static_cast<double>(count))); };
-  const std::ptrdiff_t first = bin(position - width / 2), last = std::min(bin(position + width / 2), first + count - 1);
-  for (std::ptrdiff_t i = first; i <= last; ++i) filled[static_cast<std::size_t>((i + count) % count)] = 1;
-}
 
 Vec3 vector_of(const FittedShape& shape, std::size_t parameter) {
   return Vec3(shape.parameters[parameter].values.data());
@@ -54,8 +44,7 @@ std::array<Vec3, 2> plane_axes(const Circle& circle, std::span<const Vec3> point
 void describe(const Circle& circle, const FitInput& input, double reach, FittedShape& shape) {
   const auto [u, v] = plane_axes(circle, input.points);
   const double turn = 2 * pi * circle.radius, edge = input.mean_edge;
-  const double bins = std::clamp(std::round(turn / edge * bins_per_edge), least_bins, max_bins);
-  std::vector<char> filled(static_cast<std::size_t>(bins), 0);
+  TurnCoverage covered(turn / edge);
 
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   std::size_t inliers = 0;
@@ -66,7 +55,7 @@ void describe(const Circle& circle, const FitInput& input, double reach, FittedS
     ++inliers;
     squares += d2;
     const Vec3 arm = point - circle.center;
-    fill(std::atan2(arm.dot(v), arm.dot(u)) / (2 * pi) + 0.5, std::min(edge / turn, 0.125), filled);
+    covered.add(std::atan2(arm.dot(v), arm.dot(u)), turn / edge);
     // All parameters as lengths: the tilts as the displacement that they give to points of the circle.
     const auto rows = offset_derivative(circle, u / circle.radius, v / circle.radius, point);
     information += rows.transpose() * rows;
@@ -79,7 +68,7 @@ void describe(const Circle& circle, const FitInput& input, double reach, FittedS
   }
   const double n = static_cast<double>(inliers);
   shape.rms = std::sqrt(squares / n);
-  shape.coverage = static_cast<double>(std::count(filled.begin(), filled.end(), 1)) / bins;
+  shape.coverage = covered.part();
   shape.explained = shape.coverage * turn / edge;
   shape.unexplained = (static_cast<double>(input.points.size()) - n) / (n / shape.explained);
 

@@ -91,6 +91,41 @@ TEST(Drawing, SpheresAndCylindersFaceOutwards) {
   EXPECT_NEAR(tube.lines[1][0].z(), 4, rounding);
 }
 
+TEST(Drawing, ConesEndWithTheirRegionAndFaceOutwards) {
+  const std::vector<ShapeParameter> cone = {
+      {"apex", 3, {0, 0, 1}}, {"axis", 3, {0, 0, 1}}, {"half_angle", 1, {45}}};  // degrees
+  const Drawing whole = draw_shape(cone, std::vector<Vec3>{{0, 0, 1}, {0, 3, 4}});
+  const double expected = pi * 3 * std::sqrt(18.0);
+  EXPECT_NEAR(area(whole.patches.at(0)), expected, 0.01 * expected);
+  EXPECT_EQ(whole.lines.size(), 1U);
+  const Drawing cut = draw_shape(cone, std::vector<Vec3>{{1, 0, 2}, {0, 3, 4}});
+  ASSERT_EQ(cut.lines.size(), 2U);
+  for (const std::vector<Vec3>& line : cut.lines)
+    for (const Vec3& p : line) EXPECT_NEAR(std::hypot(p.x(), p.y()), p.z() - 1, rounding);
+  EXPECT_NEAR(cut.lines[0][0].z(), 2, rounding);
+  EXPECT_NEAR(cut.lines[1][0].z(), 4, rounding);
+  // Outwards is away from the axis.
+  const Triangle& t = cut.patches.at(0).triangles[0];
+  const std::vector<Vec3>& at = cut.patches[0].positions;
+  const Vec3 normal = (at[t[1]] - at[t[0]]).cross(at[t[2]] - at[t[0]]), middle = (at[t[0]] + at[t[1]] + at[t[2]]) / 3;
+  EXPECT_GT(normal.dot(Vec3(middle.x(), middle.y(), 0)), 0);
+  EXPECT_TRUE(draw_shape(cone, {}).empty());
+}
+
+TEST(Drawing, ToriAreClosed) {
+  const Drawing ring = draw_shape(
+      std::vector<ShapeParameter>{
+          {"center", 3, {0, 0, 0}}, {"axis", 3, {0, 0, 1}}, {"major_radius", 1, {5}}, {"minor_radius", 1, {2}}},
+      {});
+  const auto on_torus = [](const Vec3& p) { return std::hypot(std::hypot(p.x(), p.y()) - 5, p.z()); };
+  for (const Vec3& p : ring.patches.at(0).positions) EXPECT_NEAR(on_torus(p), 2, rounding);
+  for (const std::vector<Vec3>& line : ring.lines)
+    for (const Vec3& p : line) EXPECT_NEAR(on_torus(p), 2, rounding);
+  EXPECT_EQ(ring.lines.size(), 6U);
+  const double volume = 2 * pi * pi * 5 * 4;
+  EXPECT_NEAR(enclosed(ring.patches[0]) / 6, volume, 0.04 * volume);
+}
+
 TEST(Drawing, ShapesOfOthersAreTheirOutline) {
   const std::vector<Vec3> outline = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
   const std::vector<ShapeParameter> helix = {{"pitch", 1, {2}}};

@@ -86,7 +86,32 @@ TEST(Concentric, PoseScaleAndOrderDoNotMatter) {
   expect_invariant(*test::relation("concentric"), first, second, 1);
 }
 
-TEST(Concentric, OnlyCirclesAreConcentric) {
+/// A round shape of another kind: along its axis, or with a ring about it.
+Feature round_shape(Feature feature, Orientation orientation, const char* measure) {
+  feature.shape.orientation = orientation;
+  feature.shape.measures[0].name = measure;
+  return feature;
+}
+
+TEST(Concentric, WhatHasAnAxisAndARadiusIsAsACircle) {
+  const auto relation = test::relation("concentric");
+  Feature first = circle(Vec3(0.1, 0, 0), tilted(0.1), 1.2), second = circle(Vec3(0, 0.2, 2), Vec3(0.1, 0.2, -1));
+  first.shape.direction_sd = 0.02;
+  const RelationResult circles = relate(*relation, first, second);
+  const Feature cylinder = round_shape(second, Orientation::line_like, "radius");
+  const Feature torus = round_shape(second, Orientation::plane_like, "major_radius");
+  for (const Feature& other : {cylinder, torus}) {
+    const RelationResult result = relate(*relation, first, other);
+    ASSERT_TRUE(result.applicable) << result.why;
+    EXPECT_EQ(result.residual, circles.residual);
+    EXPECT_EQ(result.tolerance, circles.tolerance);
+    EXPECT_EQ(result.sd, circles.sd);
+  }
+  expect_invariant(*relation, cylinder, torus, 1);
+  EXPECT_FALSE(relate(*relation, first, round_shape(second, Orientation::none, "radius")).applicable) << "a sphere";
+}
+
+TEST(Concentric, OnlyRoundShapesAreConcentric) {
   const auto relation = test::relation("concentric");
   const RelationResult line = relate(*relation, circle(Vec3::Zero()), segment_feature(Vec3::Zero(), Vec3::UnitZ()));
   EXPECT_FALSE(line.applicable);

@@ -15,10 +15,9 @@ Feature ring(const Vec3& center, const Vec3& normal, double radius) {
 }
 
 /// An open pipe of radius 1 from z = -2 to 2.
-RelationResult at(Feature feature, const Motion& motion = {}) {
+RelationResult at(const Feature& feature, const Motion& motion = {}) {
   const Mesh mesh(transformed(make_cylinder(1, 4, 48, 24, false), motion.rotation, motion.scale, motion.translation),
                   "pipe");
-  for (Vec3& point : feature.shape.outline) point = motion(point);
   const Feature there = moved(feature, motion);
   const RelationOperand operand{&there.shape, {}, {}};
   Box box;

@@ -66,7 +66,8 @@ inline Feature moved(Feature feature, const Motion& motion) {
   shape.centroid = motion(shape.centroid);
   shape.centroid_sd *= motion.scale;
   for (Measure& measure : shape.measures) measure.value *= motion.scale;
-  for (Vec3& point : feature.points) point = motion(point);
+  for (auto* list : {&feature.points, &shape.outline})
+    for (Vec3& point : *list) point = motion(point);
   return feature;
 }
 
