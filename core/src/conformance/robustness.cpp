@@ -234,7 +234,7 @@ std::string check_exceptions(const Subject& subject, const TrialSet& trials) {
 }
 
 std::string check_cancellation(const Subject& subject, const TrialSet& trials) {
-  constexpr double patience_s = 5;
+  constexpr double patience_s = 10;  // a machine may be busy
   const auto object = made(subject);
   const auto arguments = subject.arguments();
   double longest = 0;
