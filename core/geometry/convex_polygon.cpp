@@ -11,6 +11,31 @@ namespace toposcope::geometry {
 
 using Eigen::Vector2d;
 
+namespace {
+
+constexpr double straight_tolerance = 1e-12;  ///< of the extent: how far from a side a corner is none
+
+/// Leaves out corners that lie on a side, or that are one, but for rounding.
+std::vector<Index> without_straight_corners(std::span<const Vector2d> points, const std::vector<Index>& polygon) {
+  double extent = 0;
+  for (const Index i : polygon) extent = std::max(extent, (points[i] - points[polygon[0]]).cwiseAbs().maxCoeff());
+  const double near = straight_tolerance * extent;
+  const auto straight = [&](Index i, Index j, Index k) {
+    const Vector2d u = points[j] - points[i], v = points[k] - points[j];
+    return u.norm() <= near || (u.dot(v) >= 0 && u.x() * v.y() - u.y() * v.x() <= near * (u + v).norm());
+  };
+  std::vector<Index> kept;
+  for (const Index i : polygon) {
+    while (kept.size() >= 2 && straight(kept.end()[-2], kept.back(), i)) kept.pop_back();
+    kept.push_back(i);
+  }
+  while (kept.size() > 2 && straight(kept.end()[-2], kept.back(), kept[0])) kept.pop_back();
+  while (kept.size() > 2 && straight(kept.back(), kept[0], kept[1])) kept.erase(kept.begin());
+  return kept;
+}
+
+}  // namespace
+
 std::vector<Index> convex_polygon(std::span<const Vector2d> points) {
   std::vector<Index> order(points.size()), polygon;
   std::iota(order.begin(), order.end(), Index{0});
@@ -18,7 +43,7 @@ std::vector<Index> convex_polygon(std::span<const Vector2d> points) {
     const auto &p = points[i], &q = points[j];
     return p.x() != q.x() ? p.x() < q.x() : p.y() != q.y() ? p.y() < q.y() : i < j;
   });
-  // Without a tolerance: it would take corners for points of a side where a side runs along the order.
+  // Without a tolerance here: it would take corners for points of a side where a side runs along the order.
   const auto turns_left = [&](Index i, Index j, Index k) {
     const Vector2d u = points[j] - points[i], v = points[k] - points[j];
     return u.x() * v.y() - u.y() * v.x() > 0;
@@ -33,7 +58,7 @@ std::vector<Index> convex_polygon(std::span<const Vector2d> points) {
     std::reverse(order.begin(), order.end());
   }
   if (polygon.empty() && !points.empty()) polygon.push_back(order[0]);
-  return polygon;
+  return polygon.size() < 3 ? polygon : without_straight_corners(points, polygon);
 }
 
 Vector2d least_rectangle(std::span<const Vector2d> points) {
