@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 
 #include "mesh/mesh.h"
@@ -19,6 +18,7 @@
 #include "pipeline/pipeline_manifest.h"
 #include "support/meshes.h"
 #include "support/plugins.h"
+#include "support/program.h"
 
 namespace toposcope {
 namespace {
@@ -41,8 +41,9 @@ relationships:
 /// Of a grid of 21 x 21 vertices, one apart: set 0 the first row, set 1 the first two, sets 2 and 3 the rows 8 and 12.
 struct SecondLook : ::testing::Test {
   SecondLook() : mesh(test::make_grid(20, 20, 20, 20), "grid") {
-    const fs::path path = fs::path(::testing::TempDir()) / "second_look.yaml";
-    std::ofstream(path) << three_features;
+    const test::TemporaryFolder folder;  // tests run side by side
+    const fs::path path = folder / "second_look.yaml";
+    test::write_text(path, three_features);
     model = read_model(path, &test::host().catalog());
     const fs::path pipeline = fs::path(TOPOSCOPE_SOURCE_DIR) / "pipelines/default.yaml";
     stations = make_stations(test::host(), read_pipeline(pipeline, test::host().catalog()), model);
