@@ -10,12 +10,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "mesh/mesh.h"
 #include "model/read_model.h"
 #include "pipeline/labeling_problem.h"
 #include "pipeline/pipeline_manifest.h"
+#include "probability/likelihood.h"
 #include "support/meshes.h"
 #include "support/plugins.h"
 #include "support/program.h"
@@ -142,6 +144,33 @@ TEST_F(SecondLook, TheProblemIsTheSameWhetherOrNotTheFirstIsKnown) {
     EXPECT_EQ(known.constraints[r].costs, afresh.constraints[r].costs) << r;
     EXPECT_EQ(known.constraints[r].violations, afresh.constraints[r].violations) << r;
   }
+}
+
+/// Bar and rod have the same candidates, so that each pair of them is tested once and serves both ways round.
+TEST_F(SecondLook, EveryEntryOfATableIsWhatItsRelationshipSays) {
+  const LabelingProblem problem = build_problem(mesh.view(), model, features, overlap, stations, test::context(2));
+  ASSERT_EQ(problem.variables[0].candidates, problem.variables[2].candidates);
+  std::size_t tested = 0;
+  for (Index r = 0; r < problem.constraints.size(); ++r) {
+    const LabelingConstraint& constraint = problem.constraints[r];
+    EXPECT_EQ(constraint.scope, model.relationships[r].features);
+    const LabelingVariable &first = problem.variables[constraint.scope[0]],
+                           &second = problem.variables[constraint.scope[1]];
+    for (std::size_t i = 1; i < first.domain(); ++i)
+      for (std::size_t j = 1; j < second.domain(); ++j) {
+        const Index a = first.candidates[i - 1], b = second.candidates[j - 1];
+        const float found = constraint.violations[i * second.domain() + j];
+        if (problem.conflict(a, b)) {
+          EXPECT_EQ(found, std::numeric_limits<float>::infinity());
+          continue;
+        }
+        const ConstructedFeature* const given[] = {&features.all[a], &features.all[b]};
+        const RelationResult result = test_relationship(mesh.view(), model, r, given, stations, test::context(1));
+        EXPECT_NEAR(found, violation(result), 1e-6) << r << ": " << i << ", " << j;
+        ++tested;
+      }
+  }
+  EXPECT_GT(tested, 4u);
 }
 
 /// Two parallel edges four apart, as those of a fin under a T-tail: the lines run along both, and one joins them.
