@@ -20,62 +20,89 @@ double squared_distance(const Circle& circle, const Vec3& point) {
   return offset(circle, point).squared();
 }
 
-/// Six free parameters about a start: centre, slope of the plane along two axes, radius.
-Circle moved(const Circle& start, const Vec3& u, const Vec3& v, const double* x) {
-  return {start.center + Vec3(x[0], x[1], x[2]), (start.normal + x[3] * u + x[4] * v).normalized(),
-          start.radius + x[5]};
-}
-
-/// Two residuals per point, e / sqrt(1 + |e|^2 / c^2): the least squares of them is Geman and McClure's robust sum.
-struct RobustResiduals {
+/// Two residuals per point, e / sqrt(1 + |e|^2 / c^2): the least squares of them is Geman and McClure's robust sum. The
+/// solver gets seven in their stead, a square root of the normal equations, which is all that it makes of residuals.
+class RobustResiduals {
+ public:
   using Scalar = double;
-  enum { NUM_RESIDUALS = Eigen::Dynamic, NUM_PARAMETERS = 6 };
+  enum { NUM_PARAMETERS = 6, NUM_RESIDUALS = NUM_PARAMETERS + 1 };
 
-  std::span<const Vec3> points;
-  Circle start;
-  Vec3 u, v;
-  double inverse_width2;  // 1 / c^2
+  /// \param width  c, at which a point has half of the greatest cost
+  RobustResiduals(std::span<const Vec3> points, const Circle& start, double width)
+      : points_(points),
+        start_(start),
+        u_(any_perpendicular(start.normal)),
+        v_(start.normal.cross(u_)),
+        inverse_width2_(1 / (width * width)) {}
 
-  int NumResiduals() const { return 2 * static_cast<int>(points.size()); }
+  Circle moved(const double* x) const {
+    const Vec3 normal = start_.normal + x[3] * u_ + x[4] * v_;
+    return {start_.center + Vec3(x[0], x[1], x[2]), normal.normalized(), start_.radius + x[5]};
+  }
 
   bool operator()(const double* x, double* residuals, double* jacobian) const {
-    const Circle circle = moved(start, u, v, x);
-    const double length = (start.normal + x[3] * u + x[4] * v).norm();
-    const Vec3 by_u = (u - circle.normal * circle.normal.dot(u)) / length;
-    const Vec3 by_v = (v - circle.normal * circle.normal.dot(v)) / length;
-    const std::size_t rows = 2 * points.size();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Offset e = offset(circle, points[i]);
-      const double g = 1 / std::sqrt(1 + e.squared() * inverse_width2);
-      residuals[2 * i] = g * e.radial;
-      residuals[2 * i + 1] = g * e.height;
-      if (!jacobian) continue;
-      const Eigen::Matrix<double, 2, 6> derivative = offset_derivative(circle, by_u, by_v, points[i]);
-      for (std::size_t k = 0; k < 6; ++k) {
-        const double radial = derivative(0, k), height = derivative(1, k);
-        const double fall = g * g * inverse_width2 * (e.radial * radial + e.height * height);
-        jacobian[k * rows + 2 * i] = g * (radial - fall * e.radial);
-        jacobian[k * rows + 2 * i + 1] = g * (height - fall * e.height);
+    Eigen::Map<Eigen::Matrix<double, NUM_RESIDUALS, 1>> root(residuals);
+    const Circle circle = moved(x);
+    if (!jacobian) {  // only their length matters
+      double sum = 0;
+      for (const Vec3& point : points_) {
+        const double squared = squared_distance(circle, point);
+        sum += squared / (1 + squared * inverse_width2_);
       }
+      root.setZero();
+      root[0] = std::sqrt(sum);
+      return true;
     }
+    const double length = (start_.normal + x[3] * u_ + x[4] * v_).norm();
+    const Vec3 by_u = (u_ - circle.normal * circle.normal.dot(u_)) / length;
+    const Vec3 by_v = (v_ - circle.normal * circle.normal.dot(v_)) / length;
+    Eigen::Matrix<double, 8, 8> sums = Eigen::Matrix<double, 8, 8>::Zero();  // 8: whole vector registers
+    Eigen::Matrix<double, 8, 1> radial = Eigen::Matrix<double, 8, 1>::Zero(), height = radial;
+    for (const Vec3& point : points_) {
+      const Offset e = offset(circle, point);
+      const Eigen::Matrix<double, 2, 6> derivative = offset_derivative(circle, by_u, by_v, point);
+      radial.head<6>() = derivative.row(0).transpose();
+      height.head<6>() = derivative.row(1).transpose();
+      radial[6] = height[6] = 0;
+      const double g2 = 1 / (1 + e.squared() * inverse_width2_), g = std::sqrt(g2);
+      const Eigen::Matrix<double, 8, 1> fall = g2 * inverse_width2_ * (e.radial * radial + e.height * height);
+      radial = g * (radial - e.radial * fall);
+      height = g * (height - e.height * fall);
+      radial[6] = g * e.radial;
+      height[6] = g * e.height;
+      for (int k = 0; k < NUM_RESIDUALS; ++k) sums.col(k) += radial[k] * radial + height[k] * height;
+    }
+    using Square = Eigen::Matrix<double, NUM_RESIDUALS, NUM_RESIDUALS>;
+    const Eigen::LDLT<Square> factors(sums.topLeftCorner<NUM_RESIDUALS, NUM_RESIDUALS>());
+    Square factor = factors.matrixL();
+    factor = factor * factors.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal();
+    factor = factors.transpositionsP().transpose() * factor;
+    Eigen::Map<Eigen::Matrix<double, NUM_RESIDUALS, NUM_PARAMETERS>> derivatives(jacobian);
+    derivatives = factor.topRows<NUM_PARAMETERS>().transpose();
+    root = factor.row(NUM_PARAMETERS).transpose();
     return true;
   }
+
+ private:
+  std::span<const Vec3> points_;
+  Circle start_;
+  Vec3 u_, v_;  // the normal's free directions
+  double inverse_width2_;
 };
 
-/// Minimises from `circle` until steps fall below `tolerance`; adds to the summary. Unit: the spread of the points.
+/// Minimises from `circle` until a step lowers the sum by less than `tolerance` of its greatest possible value; adds to
+/// the summary. Unit: the spread of the points.
 void minimize(std::span<const Vec3> points, double width, double tolerance, Circle& circle, FitSummary& summary) {
-  RobustResiduals residuals{points, circle, any_perpendicular(circle.normal), Vec3::Zero(), 1 / (width * width)};
-  residuals.v = circle.normal.cross(residuals.u);
+  const RobustResiduals residuals(points, circle, width);
   ceres::TinySolver<RobustResiduals> solver;
   solver.options.max_num_iterations = iteration_limit;
   solver.options.gradient_tolerance = 1e-14;
-  solver.options.parameter_tolerance = tolerance;
-  // No point costs more than half the width squared; below this, changes of the sum are rounding.
-  solver.options.function_tolerance = 1e-16 * static_cast<double>(points.size()) * width * width;
+  solver.options.parameter_tolerance = 1e-9;
+  solver.options.function_tolerance = tolerance * static_cast<double>(points.size()) * width * width;
   solver.options.cost_threshold = 1e-28;
   Eigen::Matrix<double, 6, 1> x = Eigen::Matrix<double, 6, 1>::Zero();
   solver.Solve(residuals, &x);
-  circle = moved(circle, residuals.u, residuals.v, x.data());
+  circle = residuals.moved(x.data());
   circle.radius = std::abs(circle.radius);
   summary.termination =
       solver.summary.status == solver.HIT_MAX_ITERATIONS ? Termination::iteration_limit : Termination::converged;
@@ -173,7 +200,7 @@ Estimate fit_robust(std::span<const Vec3> points, double noise_floor, double rad
   double initial_cost = 0;
   for (int round = 0; round < 3; ++round) {
     noise = noise_of(sample, circle, noise, floor);
-    const double tolerance = round < 2 ? 1e-3 : 1e-9;  // the first rounds only serve to find the noise
+    const double tolerance = round < 2 ? 1e-6 : 1e-13;  // the first rounds only serve to find the noise
     minimize(sample, 2.5 * noise, tolerance, circle, estimate.summary);
     if (round == 0) initial_cost = estimate.summary.initial_cost;
   }
