@@ -10,7 +10,6 @@
 namespace toposcope::line_group {
 namespace {
 
-constexpr std::size_t fit_points = 400;
 constexpr double longest_segment_diagonals = 1.5;
 
 /// Why the points or arguments determine no line group, or nothing.
@@ -64,6 +63,15 @@ class LineGroupFitter final : public ShapeFitter {
     shape.summary.initial_cost *= unit * unit;
     shape.summary.final_cost *= unit * unit;
     if (!shape.summary.usable()) return shape;
+    if (segments == 3 && !closed && !powell_ && input.set_offsets.size() == 3) {
+      const auto set = [&](std::size_t k) {
+        std::vector<Vec3> points(input.points.begin() + input.set_offsets[k],
+                                 input.points.begin() + input.set_offsets[k + 1]);
+        for (Vec3& point : points) point = (point - axes.centroid) / unit;
+        return points;
+      };
+      consider_bridge(problem, set(0), set(1), estimate.polyline);
+    }
     for (Vec3& vertex : estimate.polyline.vertices) vertex = axes.centroid + unit * vertex;
     trim(estimate.polyline, input.points, 2 * scale);
     order(estimate.polyline);

@@ -13,6 +13,8 @@
 
 namespace toposcope::line_group {
 
+constexpr std::size_t fit_points = 400;  ///< of more points so many are fitted
+
 struct Polyline {
   std::vector<Vec3> vertices;
   bool closed = false;  ///< the last vertex is joined to the first
@@ -96,6 +98,13 @@ Estimate fit_straight(const Problem& problem, bool robust);
 /// Several segments: many starts, Levenberg-Marquardt on the vertices under Geman and McClure's robust distance; parts
 /// of the polyline far from every point cost as much as points far from the polyline.
 Estimate fit_polyline(const Problem& problem);
+
+/// Three segments over two working sets, each of which is straight: the middle one joins their nearest ends and needs no
+/// points. It takes the fitted polyline's place where its cost, from the points to it, is less than half of the other's,
+/// from the points to it and back.
+/// \param first, second  the points of the sets, in the problem's frame
+void consider_bridge(const Problem& problem, std::span<const Vec3> first, std::span<const Vec3> second,
+                     Polyline& polyline);
 
 /// Dissertation 4.4.2: Powell's method on the endpoints from the box start of least cost.
 Estimate fit_powell(const Problem& problem);

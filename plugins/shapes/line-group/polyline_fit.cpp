@@ -13,7 +13,13 @@
 namespace toposcope::line_group {
 namespace {
 
-constexpr std::size_t screen_points = 100, screened = 16, finalists = 3;
+constexpr std::size_t screen_points = 100, finalists = 3;
+/// Few steps for many starts, more for the few that these leave ahead.
+struct Heat {
+  std::size_t starts;
+  int iterations;
+};
+constexpr Heat heats[] = {{16, 3}, {6, 7}};
 constexpr int final_iterations = 300;
 constexpr double quantile = 0.65;  // so many points at least belong to the polyline
 
@@ -40,9 +46,12 @@ Descent descend(Objective& objective, int iteration_limit, double tolerance, Pol
   double damping = 1e-3;
   Polyline next = polyline;
   Eigen::MatrixXd damped;
+  Eigen::VectorXd step;
+  Eigen::LLT<Eigen::MatrixXd> solver;
   for (; descent.iterations < iteration_limit; ++descent.iterations) {
     damp(damping, equations.matrix, damped);
-    const Eigen::VectorXd step = damped.ldlt().solve(-equations.gradient);
+    solver.compute(damped);
+    step = solver.solve(-equations.gradient);
     for (std::size_t i = 0; i < polyline.vertices.size(); ++i)
       next.vertices[i] = polyline.vertices[i] + step.segment<3>(3 * i);
     const double largest = step.lpNorm<Eigen::Infinity>();
@@ -100,8 +109,10 @@ Estimate fit_polyline(const Problem& problem) {
   Objective screening = screening_objective(problem, coarse);
   std::vector<Candidate> candidates;
   for (Polyline& start : starts(problem)) candidates.push_back({screening.evaluate(start), std::move(start)});
-  keep_best(candidates, screened);
-  for (auto& [cost, polyline] : candidates) cost = descend(screening, 10, 1e-3, polyline).cost;
+  for (const auto& [count, iterations] : heats) {
+    keep_best(candidates, count);
+    for (auto& [cost, polyline] : candidates) cost = descend(screening, iterations, 1e-3, polyline).cost;
+  }
   keep_best(candidates, finalists);
 
   const double width = std::max(3 * problem.scale, 2.5 * noise_of(candidates.front().polyline, coarse));

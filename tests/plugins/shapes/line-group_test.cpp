@@ -109,6 +109,47 @@ TEST(LineGroup, RecoversExactSegments) {
   }
 }
 
+/// Points of some of the sides of a polyline, in two sets.
+PointSets in_two_sets(const Corners& first, const Corners& second, double step, double noise, std::uint64_t seed) {
+  PointSets sets = sampled(first, false, step, noise, seed);
+  const PointSets other = sampled(second, false, step, noise, seed + 1000);
+  sets.offsets = {0, static_cast<Index>(sets.points.size())};
+  sets.points.insert(sets.points.end(), other.points.begin(), other.points.end());
+  sets.offsets.push_back(static_cast<Index>(sets.points.size()));
+  return sets;
+}
+
+TEST(LineGroup, JoinsTwoSetsWhereTheMiddleSegmentHasNoPoints) {
+  const Corners fin = {{0, 0, 0}, {5, 10, 0}, {11, 11, 0}, {9, 0.5, 0}};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Random random(seed);
+    const Eigen::Matrix3d rotation = random.rotation();
+    const Vec3 shift = random.normal3(30);
+    PointSets sets = in_two_sets({fin[0], fin[1]}, {fin[2], fin[3]}, 0.5, 0.1, seed);
+    for (int i = 0; i < 3; ++i) sets.points[static_cast<std::size_t>(i)] += Vec3(-1, 0, 0);  // of a fillet
+    const FittedShape fitted =
+        fit(*shape("line-group"), transformed(sets, rotation, 2, shift), line_group(3).options());
+    ASSERT_TRUE(fitted.summary.usable()) << fitted.summary.message;
+    Corners truth = fin;
+    for (Vec3& corner : truth) corner = rotation * (2 * corner) + shift;
+    EXPECT_LT(mismatch(endpoints(fitted), truth, false), 2 * 2 * 0.5) << seed;
+    EXPECT_LT(fitted.rms, 0.7) << seed;
+    EXPECT_LT(fitted.coverage, 0.9) << "the middle has no points";
+  }
+}
+
+TEST(LineGroup, BendsWithinASetWhereThatIsBetter) {
+  const Corners fin = {{0, 0, 0}, {5, 10, 0}, {11, 11, 0}, {9, 0.5, 0}};
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const PointSets sets =
+        in_two_sets({fin[0], fin[1], fin[2]}, {fin[2] + (fin[3] - fin[2]) / 8, fin[3]}, 0.5, 0.1, seed);
+    const FittedShape fitted = fit(*shape("line-group"), sets, line_group(3).options());
+    ASSERT_TRUE(fitted.summary.usable()) << fitted.summary.message;
+    EXPECT_LT(mismatch(endpoints(fitted), fin, false), 2 * 0.5) << seed;
+    EXPECT_GT(fitted.coverage, 0.9);
+  }
+}
+
 TEST(LineGroup, SegmentHoldsAgainstOutliers) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     PointSets sets = sampled({{0, 0, 0}, {70, 0, 0}}, false, 1, 0.1, seed);
