@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "component_tree.h"
+#include "halves.h"
 #include "toposcope/curvature.h"
 #include "toposcope/large_array.h"
 #include "toposcope/plugin.h"
@@ -28,6 +30,7 @@ constexpr OptionSpec options[] = {
      "working sets of one field; those of greatest saliency times root of size are kept"},
     {"reach", OptionType::real, "mean-edges", "3", "0", "10",
      "radius of the ball whose first moment tells edges of thin sheets too; 0: curvature alone"},
+    {"halves", OptionType::boolean, "", "true", "", "", "long convex rings are offered in two halves too"},
 };
 
 constexpr ProvidedName types[] = {
@@ -55,6 +58,7 @@ class CurvatureTree final : public WorkingSetClassifier {
       : deviation_(given.real("deviation")),
         max_part_(given.real("max_part")),
         reach_(given.real("reach")),
+        halves_(given.boolean("halves")),
         limits_{given.real("growth"), static_cast<Index>(given.integer("min_vertices")), 0,
                 static_cast<std::size_t>(given.integer("max_sets"))} {}
 
@@ -72,12 +76,18 @@ class CurvatureTree final : public WorkingSetClassifier {
     context.parallel_for(levels.size(), 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) found[i] = component_tree::components(mesh, levels[i], step, limits);
     });
-    for (std::size_t i = 0; i < found.size(); ++i)
-      for (std::size_t set = 0; set < found[i].size(); ++set)
-        sink.add(of_type[i], found[i][set], found[i].saliency[set]);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      add(of_type[i], found[i], sink);
+      if (halves_ && std::string_view(of_type[i]) == "convex")
+        add(of_type[i], component_tree::halves_of_rings(mesh, found[i], limits.min_vertices), sink);
+    }
   }
 
  private:
+  static void add(const char* type, const component_tree::Components& sets, WorkingSetSink& sink) {
+    for (std::size_t set = 0; set < sets.size(); ++set) sink.add(type, sets[set], sets.saliency[set]);
+  }
+
   std::vector<component_tree::Levels> read_fields(const MeshView& mesh, Context& context) const {
     ShapeOperators operators = fit_shape_operators(mesh, context);
     diffuse(mesh, operators, diffusion_passes(mesh, deviation_ * mesh.box.diagonal(), 1), context);
@@ -116,6 +126,7 @@ class CurvatureTree final : public WorkingSetClassifier {
   double deviation_;
   double max_part_;
   double reach_;
+  bool halves_;
   component_tree::Limits limits_;
 };
 
@@ -124,7 +135,7 @@ class CurvatureTree final : public WorkingSetClassifier {
 TOPOSCOPE_PLUGIN(
     WorkingSetClassifier, CurvatureTree,
     {.id = "curvature-tree",
-     .version = "1.1.0",
+     .version = "1.2.0",
      .summary = "Nested regions at all curvature thresholds at once; no threshold to tune",
      .citation =
          "component tree: Najman and Couprie 2006; stable regions: Matas et al. 2002; moments: Clarenz et al. 2004",

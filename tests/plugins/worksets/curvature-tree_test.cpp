@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -104,6 +105,40 @@ TEST(CurvatureTree, OffersTheEdgeOfAThinSheet) {
   EXPECT_TRUE(offered);
 }
 
+/// The border of a long thin sheet comes whole and in two halves; that of a square one only whole.
+TEST(CurvatureTree, OffersTheHalvesOfALongRing) {
+  constexpr double edge = 0.125, width = 4;
+  TriangleSoup soup = test::make_sheet(width, edge / 10, static_cast<int>(width / edge));
+  const Mesh square(soup, "sheet");
+  for (Vec3& p : soup.positions) p.x() *= 2.5;
+  const Mesh sheet(soup, "long sheet");
+  const auto sides = [&](const Mesh& mesh, const std::string& halves) {  // of sets along a border: how many reach where
+    const Box& box = mesh.view().box;
+    std::array<int, 3> count = {};  // both ends, the low one, the high one
+    const WorkingSets sets = classify(mesh, 2, {{"halves", halves}});
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+      if (sets.type_names[sets.types[s]] != "convex") continue;
+      double low = 1e9, high = -1e9;
+      for (Index v : sets[s]) {
+        const double x = (mesh.view().positions[v] - box.center).x() / box.a();
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+      if (low < -0.49 && high > 0.49) ++count[0];
+      if (low < -0.49 && high < 0.01 && high > -0.1) ++count[1];
+      if (high > 0.49 && low > -0.01 && low < 0.1) ++count[2];
+    }
+    return count;
+  };
+  const auto with = sides(sheet, "true"), without = sides(sheet, "false");
+  EXPECT_GT(with[0], 0);
+  EXPECT_GT(with[1], 0);
+  EXPECT_EQ(with[1], with[2]);
+  EXPECT_EQ(without[0], with[0]);
+  EXPECT_EQ(without[1] + without[2], 0);
+  EXPECT_EQ(sides(square, "true"), sides(square, "false"));
+}
+
 TEST(CurvatureTree, IsTheSameAtAnyThreadCountAndScale) {
   TriangleSoup soup = test::make_torus(2, 0.6, 60, 30);
   const Mesh mesh(soup, "torus");
@@ -124,7 +159,7 @@ TEST(CurvatureTree, KeepsItsLimits) {
     EXPECT_GE(sets[s].size(), 10u);
     EXPECT_LE(sets[s].size(), mesh.view().vertex_count() / 5);
   }
-  // Of convex sets there are those of two fields.
+  // Of convex sets there are those of two fields; no ring of the torus is long.
   for (const auto& [type, number] : count) EXPECT_LE(number, sets.type_names[type] == "convex" ? 10 : 5) << types[type];
 }
 
