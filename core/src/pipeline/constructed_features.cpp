@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "pipeline/same_shape.h"
 #include "pipeline/working_set_groups.h"
 #include "plugin/plugin_host.h"
 #include "toposcope/geometry.h"
@@ -165,13 +166,43 @@ double fit_error_sd(const ModelFeature& feature, const MeshView& mesh, const Box
   return stations.probability.fit_error_scale * mesh.mean_edge;
 }
 
+/// A candidate there was, or behind them a group that may become one.
+struct Choice {
+  double cost;  ///< log of the number of choices less the evidence
+  std::size_t place;
+  const FittedShape* shape;
+  std::span<const Index> sets;
+  bool operator<(const Choice& other) const { return cost != other.cost ? cost < other.cost : place < other.place; }
+};
+
+/// Of the groups from `first` on, those in the same places with the same shape become one choice, the best: it gets the
+/// sum of their likelihoods. Nested sets make many such groups, none of which would stand out by itself.
+/// \param choices  ascending
+void join_levels(std::vector<Choice>& choices, std::size_t first, const ShapeFitter& fitter, double same,
+                 const BitMatrix& overlap) {
+  std::vector<Choice> joined;
+  for (const Choice& choice : choices) {
+    const auto like = std::find_if(joined.begin(), joined.end(), [&](const Choice& other) {
+      return choice.place >= first && same_places(overlap, choice.sets, other.sets) &&
+             same_shape(fitter, *choice.shape, *other.shape, same);
+    });
+    if (like == joined.end())
+      joined.push_back(choice);
+    else
+      like->cost -= std::log1p(std::exp(like->cost - choice.cost));
+  }
+  std::sort(joined.begin(), joined.end());
+  choices = std::move(joined);
+}
+
 /// Adds the candidates of each feature of a job to those that `out` has, of which the best are kept.
 void select(const FitJob& job, const WorkingSetGroups& groups, const JobResult& result, const MeshView& mesh,
-            const Model& model, const WorkingSets& sets, std::span<const double> vertex_areas, std::size_t ways,
-            const Stations& stations, ConstructedFeatures& out) {
+            const Model& model, const WorkingSets& sets, std::span<const double> vertex_areas,
+            std::optional<std::size_t> chosen_from, const BitMatrix& overlap, const Stations& stations,
+            ConstructedFeatures& out) {
   constexpr Index unmade = std::numeric_limits<Index>::max();
-  std::vector<Index> made(groups.size(), unmade);      // into out.all
-  std::vector<std::pair<double, std::size_t>> ranked;  // cost; of the candidates there were or, behind them, a group
+  std::vector<Index> made(groups.size(), unmade);  // into out.all
+  std::vector<Choice> choices;
   GroupPoints at;
   for (std::size_t i = 0; i < job.features.size(); ++i) {
     const ModelFeature& feature = model.features[job.features[i]];
@@ -179,31 +210,35 @@ void select(const FitJob& job, const WorkingSetGroups& groups, const JobResult& 
     count(candidates.count, result.fates[i]);
     const FeatureCandidates old = candidates;
     const std::size_t before = old.constructed.size();
-    const auto fitted =
-        static_cast<std::size_t>(std::count(result.fates[i].begin(), result.fates[i].end(), Fate::fitted));
-    const double ways_here = static_cast<double>(std::max<std::size_t>({1, fitted, ways}));
-    std::vector<double> evidence = old.evidence;
-    evidence.resize(before + groups.size());
-    ranked.clear();
-    for (std::size_t c = 0; c < before; ++c) ranked.emplace_back(std::log(old.ways[c]) - evidence[c], c);
+    const auto fitted = static_cast<double>(std::count(result.fates[i].begin(), result.fates[i].end(), Fate::fitted));
+    // Of groups that were not tried as many would have passed as of those that were.
+    const double tried = static_cast<double>(std::max<std::size_t>(1, groups.size()));
+    const double ways = std::max(1.0, fitted * (chosen_from ? static_cast<double>(*chosen_from) / tried : 1));
+    choices.clear();
+    for (std::size_t c = 0; c < before; ++c) {
+      const ConstructedFeature& constructed = out.all[old.constructed[c]];
+      choices.push_back({std::log(old.ways[c]) - old.evidence[c], c, &constructed.shape, constructed.sets});
+    }
     for (Index g = 0; g < groups.size(); ++g) {
       if (result.fates[i][g] != Fate::fitted) continue;
-      evidence[before + g] =
-          fit_evidence(stations.probability, result.shapes[g], fit_error_sd(feature, mesh, result.boxes[g], stations));
-      ranked.emplace_back(std::log(ways_here) - evidence[before + g], before + g);
+      const FittedShape& shape = result.shapes[g];
+      const double evidence =
+          fit_evidence(stations.probability, shape, fit_error_sd(feature, mesh, result.boxes[g], stations));
+      choices.push_back({std::log(ways) - evidence, before + g, &shape, groups[g]});
     }
-    std::sort(ranked.begin(), ranked.end());
-    if (ranked.size() > stations.probability.max_candidates) {
-      candidates.count.beaten += ranked.size() - stations.probability.max_candidates;
-      candidates.count.kept -= ranked.size() - stations.probability.max_candidates;
-      ranked.resize(stations.probability.max_candidates);
-    }
+    std::sort(choices.begin(), choices.end());
+    const std::size_t all = choices.size();
+    if (chosen_from) join_levels(choices, before, *job.fitter, mesh.mean_edge, overlap);
+    choices.resize(std::min(choices.size(), stations.probability.max_candidates));
+    candidates.count.beaten += all - choices.size();
+    candidates.count.kept -= all - choices.size();
     candidates.constructed.clear();
     candidates.evidence.clear();
     candidates.ways.clear();
-    for (const auto& [cost, place] : ranked) {
-      candidates.evidence.push_back(evidence[place]);
-      candidates.ways.push_back(place < before ? old.ways[place] : ways_here);
+    for (const Choice& choice : choices) {
+      const std::size_t place = choice.place;
+      candidates.ways.push_back(place < before ? old.ways[place] : ways);
+      candidates.evidence.push_back(std::log(candidates.ways.back()) - choice.cost);
       if (place < before) {
         candidates.constructed.push_back(old.constructed[place]);
         continue;
@@ -244,12 +279,12 @@ std::vector<Box> boxes_of(const WorkingSets& sets, const Model& model, const Mes
 }
 
 void construct(const FitJob& job, const WorkingSetGroups& groups, const MeshView& mesh, const Model& model,
-               const WorkingSets& sets, std::span<const double> vertex_areas, std::size_t ways,
-               const Stations& stations, Context& context, ConstructedFeatures& features) {
+               const WorkingSets& sets, std::span<const double> vertex_areas, std::optional<std::size_t> chosen_from,
+               const BitMatrix& overlap, const Stations& stations, Context& context, ConstructedFeatures& features) {
   const JobResult result = guard(job.feature->shape.plugin, [&] {
     return run_job(job, groups, mesh, model, sets, vertex_areas, features.set_boxes, context);
   });
-  select(job, groups, result, mesh, model, sets, vertex_areas, ways, stations, features);
+  select(job, groups, result, mesh, model, sets, vertex_areas, chosen_from, overlap, stations, features);
 }
 
 }  // namespace
@@ -263,22 +298,22 @@ ConstructedFeatures construct_features(const MeshView& mesh, const Model& model,
   const std::vector<FitJob> jobs = fit_jobs(model, stations);
   for (std::size_t j = 0; j < jobs.size(); ++j) {
     const WorkingSetGroups groups(*jobs[j].feature, *jobs[j].types, sets, overlap);
-    construct(jobs[j], groups, mesh, model, sets, vertex_areas, 1, stations, context, features);
+    construct(jobs[j], groups, mesh, model, sets, vertex_areas, {}, overlap, stations, context, features);
     context.progress(static_cast<double>(j + 1) / static_cast<double>(jobs.size()));
   }
   return features;
 }
 
 void construct_more(const MeshView& mesh, const Model& model, const WorkingSets& sets, Index feature,
-                    const WorkingSetGroups& groups, std::size_t ways, const Stations& stations, Context& context,
-                    ConstructedFeatures& features) {
+                    const WorkingSetGroups& groups, std::size_t chosen_from, const BitMatrix& overlap,
+                    const Stations& stations, Context& context, ConstructedFeatures& features) {
   const ModelFeature& asking = model.features[feature];
   const FitJob job{&asking,
                    &asking.second_look,
                    &stations.shape_arguments[feature],
                    stations.shapes.at(asking.shape.plugin).get(),
                    {feature}};
-  construct(job, groups, mesh, model, sets, areas_of_vertices(mesh), ways, stations, context, features);
+  construct(job, groups, mesh, model, sets, areas_of_vertices(mesh), chosen_from, overlap, stations, context, features);
 }
 
 }  // namespace toposcope

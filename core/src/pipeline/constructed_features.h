@@ -28,7 +28,7 @@ struct CandidateCount {
   std::size_t unusable = 0;      ///< the fit failed or is degenerate
   std::size_t out_of_range = 0;  ///< a parameter outside the model's range
   std::size_t poor_fit = 0;      ///< fit error beyond max_fit_error
-  std::size_t beaten = 0;        ///< beyond the number of candidates kept
+  std::size_t beaten = 0;        ///< the same as a better one, or beyond the number of candidates kept
   std::size_t kept = 0;
 };
 
@@ -36,7 +36,7 @@ struct CandidateCount {
 struct FeatureCandidates {
   std::vector<Index> constructed;  ///< into ConstructedFeatures::all
   std::vector<double> evidence;    ///< log likelihood ratio of each
-  std::vector<double> ways;        ///< of each: how many groups the look that found it had to choose from
+  std::vector<double> ways;        ///< of each: how many candidates the look that found it had to choose from
   CandidateCount count;
 };
 
@@ -52,9 +52,10 @@ ConstructedFeatures construct_features(const MeshView& mesh, const Model& model,
                                        const BitMatrix& overlap, const Stations& stations, Context& context);
 
 /// Fits a feature's shape to more groups, of the types of its second look; the best of old and new candidates stay.
-/// \param ways  how many groups these were chosen from
+/// Of those that lie in the same places with the same shape one stays and stands for them all.
+/// \param chosen_from  how many groups these were chosen from
 void construct_more(const MeshView& mesh, const Model& model, const WorkingSets& sets, Index feature,
-                    const WorkingSetGroups& groups, std::size_t ways, const Stations& stations, Context& context,
-                    ConstructedFeatures& features);
+                    const WorkingSetGroups& groups, std::size_t chosen_from, const BitMatrix& overlap,
+                    const Stations& stations, Context& context, ConstructedFeatures& features);
 
 }  // namespace toposcope

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "pipeline/labeling_problem.h"
 #include "probability/likelihood.h"
@@ -11,7 +10,7 @@
 namespace toposcope {
 namespace {
 
-constexpr std::size_t most_fits = 250;  // of a feature: about as many as at the first look
+constexpr std::size_t most_fits = 500;  // of a feature
 constexpr double near_violation = 2;    // in tolerances: a box tells centroid and direction of a shape but roughly
 constexpr std::size_t grain = 32;
 
@@ -48,19 +47,17 @@ class Look {
     return free;
   }
 
-  /// Ascending.
+  /// Those that the relationships with labelled features favour most, ascending.
   std::vector<std::size_t> worth_a_fit(const WorkingSetGroups& groups, Context& context) const {
-    std::vector<char> may(groups.size(), 1);
-    if (!relationships_.empty())
-      context.parallel_for(groups.size(), grain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t g = first; g < last && !context.cancelled(); ++g) may[g] = may_relate(groups[g], context);
-      });
+    std::vector<Worth> worth(groups.size());
+    context.parallel_for(groups.size(), grain, [&](std::size_t first, std::size_t last) {
+      for (std::size_t g = first; g < last && !context.cancelled(); ++g) worth[g] = worth_of(groups[g], context);
+    });
     std::vector<std::size_t> kept;
     for (std::size_t g = 0; g < groups.size(); ++g)
-      if (may[g]) kept.push_back(g);
+      if (worth[g].possible) kept.push_back(g);
     if (kept.size() > most_fits) {
-      std::stable_sort(kept.begin(), kept.end(),
-                       [&](std::size_t a, std::size_t b) { return worth(groups[a]) > worth(groups[b]); });
+      std::stable_sort(kept.begin(), kept.end(), [&](std::size_t a, std::size_t b) { return worth[b] < worth[a]; });
       kept.resize(most_fits);
       std::sort(kept.begin(), kept.end());
     }
@@ -68,7 +65,19 @@ class Look {
   }
 
  private:
-  bool may_relate(std::span<const Index> group, Context& context) const {
+  struct Worth {
+    bool possible = true;
+    double evidence = 0;  ///< of the relationships
+    double salience = 0;  ///< as the classifier ranks its sets
+    bool operator<(const Worth& other) const {
+      return evidence != other.evidence ? evidence < other.evidence : salience < other.salience;
+    }
+  };
+
+  Worth worth_of(std::span<const Index> group, Context& context) const {
+    Worth worth;
+    for (const Index s : group) worth.salience += sets_.saliency[s] * std::sqrt(static_cast<double>(sets_[s].size()));
+    if (relationships_.empty()) return worth;
     ConstructedFeature box;
     for (const Index s : group)
       for (const Index v : sets_[s]) box.points.push_back(mesh_.positions[v]);
@@ -78,20 +87,16 @@ class Look {
     box.shape.centroid = box.box.center;
     box.shape.outline = box.points;
     std::vector<const ConstructedFeature*> operands;
-    return std::all_of(relationships_.begin(), relationships_.end(), [&](Index r) {
+    for (const Index r : relationships_) {
       operands.clear();
       for (const Index f : model_.relationships[r].features)
         operands.push_back(f == feature_ ? &box : &features_.all[*labelled_[f]]);
       const RelationResult result = test_relationship(mesh_, model_, r, operands, stations_, context);
-      return !result.applicable || violation(result) <= near_violation;
-    });
-  }
-
-  /// As the classifier ranks its sets.
-  double worth(std::span<const Index> group) const {
-    return std::accumulate(group.begin(), group.end(), 0.0, [&](double sum, Index s) {
-      return sum + sets_.saliency[s] * std::sqrt(static_cast<double>(sets_[s].size()));
-    });
+      worth.evidence += relation_evidence(stations_.probability, result);
+      worth.possible = !result.applicable || violation(result) <= near_violation;
+      if (!worth.possible) break;
+    }
+    return worth;
   }
 
   const MeshView& mesh_;
@@ -121,9 +126,9 @@ bool look_again(const MeshView& mesh, const Model& model, const WorkingSets& set
     if (feature.second_look.empty()) continue;
     const Look look(mesh, model, sets, labelled, stations, features, f);
     WorkingSetGroups groups(feature, feature.second_look, sets, overlap, look.free_sets(overlap));
-    const std::size_t ways = groups.size();
+    const std::size_t chosen_from = groups.size();
     groups.keep(look.worth_a_fit(groups, context));
-    construct_more(mesh, model, sets, f, groups, ways, stations, context, features);
+    construct_more(mesh, model, sets, f, groups, chosen_from, overlap, stations, context, features);
   }
   return features.all.size() > before;
 }

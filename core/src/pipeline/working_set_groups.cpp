@@ -89,4 +89,14 @@ std::vector<double> areas_of_vertices(const MeshView& mesh) {
   return areas;
 }
 
+bool same_places(const BitMatrix& overlap, std::span<const Index> a, std::span<const Index> b) {
+  if (a.size() != b.size()) return false;
+  bool in_order = true, reversed = true;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    in_order = in_order && overlap.get(a[i], b[i]);
+    reversed = reversed && overlap.get(a[i], b[b.size() - 1 - i]);
+  }
+  return in_order || reversed;
+}
+
 }  // namespace toposcope

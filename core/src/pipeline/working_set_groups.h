@@ -52,4 +52,7 @@ Box principal_box(std::span<const Vec3> points);
 /// A third of the triangles around each vertex.
 std::vector<double> areas_of_vertices(const MeshView& mesh);
 
+/// Whether two groups lie in the same places: each set of one overlaps its counterpart of the other, in either order.
+bool same_places(const BitMatrix& overlap, std::span<const Index> a, std::span<const Index> b);
+
 }  // namespace toposcope

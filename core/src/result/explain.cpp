@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "pipeline/labeling_problem.h"
+#include "pipeline/same_shape.h"
 #include "result/result.h"
 #include "toposcope/labeling_tools.h"
 
@@ -91,21 +92,13 @@ class Explainer {
     if (value == 0) return std::min(1.0, posteriors[v][0]);
     double sum = 0;
     for (Index other = 1; other < posed_.problem.variables[v].domain(); ++other)
-      if (other == value || same_shape(v, value, other)) sum += posteriors[v][other];
+      if (other == value || alike(v, value, other)) sum += posteriors[v][other];
     return std::min(1.0, sum);
   }
 
-  bool same_shape(Index v, Index a, Index b) const {
+  bool alike(Index v, Index a, Index b) const {
     const ShapeFitter& fitter = *stations_.shapes.at(model_.features[posed_.features[v]].shape.plugin);
-    const auto mean_distance = [&](const FittedShape& from, const FittedShape& to) {
-      double sum = 0;
-      for (const Vec3& p : from.outline) sum += fitter.distance(to, p);
-      return sum / static_cast<double>(std::max<std::size_t>(1, from.outline.size()));
-    };
-    const FittedShape& first = constructed(v, a).shape;
-    const FittedShape& second = constructed(v, b).shape;
-    const double limit = analysis_.mesh.view().mean_edge;
-    return mean_distance(first, second) <= limit && mean_distance(second, first) <= limit;
+    return same_shape(fitter, constructed(v, a).shape, constructed(v, b).shape, analysis_.mesh.view().mean_edge);
   }
 
   /// Triangles of the input of which at least half (of the filtered pieces) have two vertices in the working sets.

@@ -93,7 +93,7 @@ TEST_F(Pipeline, ReadsEveryStation) {
   EXPECT_EQ(pipeline.labeler.plugin, "least-error");
   EXPECT_EQ(Options(pipeline.labeler.options).text("order"), "detectability");
   EXPECT_EQ(Options(pipeline.probability).integer("max_candidates"), 7);
-  EXPECT_EQ(Options(pipeline.probability).real("fit_error_scale"), 1);
+  EXPECT_EQ(Options(pipeline.probability).real("fit_error_scale"), 0.82);
   const auto circle = plugin_options(pipeline, catalog(), PluginKind::shapes, "circle");
   EXPECT_EQ(Options(circle).text("method"), "powell");
   EXPECT_EQ(Options(circle).integer("restarts"), 3);

@@ -102,8 +102,8 @@ TEST_F(SecondLook, AddsTheGroupsThatAFeatureNamesForIt) {
               ElementsAre(std::vector<Index>{0}, std::vector<Index>{1}, std::vector<Index>{2}, std::vector<Index>{3}));
   EXPECT_TRUE(look({{}, {}}));
   using Group = std::vector<Index>;
-  EXPECT_THAT(groups_of(1), ElementsAre(Group{0}, Group{0, 2}, Group{0, 3}, Group{1}, Group{1, 2}, Group{1, 3},
-                                        Group{2}, Group{2, 3}, Group{3}));
+  // Sets 0 and 1 lie in the same place, half an edge apart: with another they are one choice.
+  EXPECT_THAT(groups_of(1), ElementsAre(Group{0}, Group{0, 2}, Group{0, 3}, Group{1}, Group{2}, Group{2, 3}, Group{3}));
   EXPECT_EQ(groups_of(0), first);  // it names none
   const FeatureCandidates& pair = features.of_feature[1];
   EXPECT_EQ(pair.count.groups, 9u);
@@ -116,6 +116,25 @@ TEST_F(SecondLook, AddsTheGroupsThatAFeatureNamesForIt) {
     cost.push_back(std::log(pair.ways[c]) - pair.evidence[c]);
   }
   EXPECT_TRUE(std::is_sorted(cost.begin(), cost.end()));
+}
+
+TEST_F(SecondLook, AChoiceSeenAtSeveralLevelsHasTheLikelihoodOfThemAll) {
+  const auto evidence_of = [&](const std::vector<Index>& group) {
+    const FeatureCandidates& pair = features.of_feature[1];
+    for (std::size_t c = 0; c < pair.constructed.size(); ++c)
+      if (features.all[pair.constructed[c]].sets == group) return pair.evidence[c];
+    return std::numeric_limits<double>::quiet_NaN();
+  };
+  ASSERT_TRUE(look({}));
+  const double joined = evidence_of({0, 2});
+  const auto alone = [&](const std::vector<Index>& group) {
+    const FittedShape& shape = features.all[candidate(1, group)].shape;
+    return fit_evidence(stations.probability, shape, stations.probability.fit_error_scale * mesh.view().mean_edge);
+  };
+  // Sets 2 and 3 have no likes.
+  EXPECT_NEAR(evidence_of({2, 3}), alone({2, 3}), 1e-9);
+  EXPECT_GT(joined, alone({0, 2}) + 1e-3);
+  EXPECT_LE(joined, alone({0, 2}) + std::log(2.0) + 1e-9) << "the best stands for two, the other is no better";
 }
 
 TEST_F(SecondLook, LeavesAloneWhatAnotherFeatureHasTaken) {
