@@ -23,8 +23,10 @@ struct Refinement {
   double tolerance = 0, seam = 0;
 };
 
-/// Cuts edges at their middle, which moves onto the surface.
-void refine(TriangleSoup& mesh, const Solid& solid, double spacing, const Refinement& wanted, Context& context) {
+/// Cuts edges at their middle, which moves onto the surface. Every edge that a cut makes has a new vertex, so that edges
+/// between vertices before `first_new` have been looked at.
+void refine(TriangleSoup& mesh, const Solid& solid, double spacing, const Refinement& wanted, std::size_t first_new,
+            Context& context) {
   struct Edge {
     Index from, to, half_edge;
     bool operator<(const Edge& other) const {
@@ -51,6 +53,7 @@ void refine(TriangleSoup& mesh, const Solid& solid, double spacing, const Refine
     for (std::size_t i = first; i < last; ++i) {
       if (i > 0 && edges[i].same(edges[i - 1])) continue;
       const Index a = edges[i].from, b = edges[i].to;
+      if (b < first_new) continue;
       const Vec3 middle = (mesh.positions[a] + mesh.positions[b]) / 2;
       const bool seam = parts[a] != parts[b] && (mesh.positions[a] - mesh.positions[b]).norm() > wanted.seam;
       if (!seam && std::abs(solid.surface(middle).value) <= wanted.tolerance) continue;
@@ -104,16 +107,20 @@ Sample make_scan_target(const SampleRequest& request, Context& context) {
   // The net may be coarse, as in make_sample: rays do not mind faces of uneven size.
   const double level = net_level(solid);
   const double diagonal = (solid.high - solid.low).norm();
-  const double spacing = std::min(0.55 * (solid.thinnest + 2 * level), 0.02 * diagonal);
+  const double spacing = std::min(0.55 * (solid.thinnest + 2 * level), 0.03 * diagonal);
   const double fine = diagonal * std::min(1.0, std::sqrt(20000.0 / request.faces));
-  const Refinement wanted{.tolerance = 0.0002 * fine, .seam = 0.004 * fine};
+  const Refinement wanted{.tolerance = 0.0004 * fine, .seam = 0.004 * fine};
   try {
     sample.mesh = extract_isosurface(solid.surface, solid.low, solid.high, spacing, level, context);
   } catch (const std::length_error&) {
     throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
                                  solid.thinnest_parameter, solid.thinnest));
   }
-  for (int round = 0; round < 4; ++round) refine(sample.mesh, solid, spacing, wanted, context);
+  for (std::size_t round = 0, first_new = 0; round < 4; ++round) {
+    const std::size_t before = sample.mesh.positions.size();
+    refine(sample.mesh, solid, spacing, wanted, first_new, context);
+    first_new = before;
+  }
   sample.gap = solid.gap;
   sample.thinnest = solid.thinnest;
   sample.features = solid.features;
