@@ -23,8 +23,8 @@ struct Refinement {
   double tolerance = 0, seam = 0;
 };
 
-/// Cuts edges at their middle, which moves onto the surface. Every edge that a cut makes has a new vertex, so that edges
-/// between vertices before `first_new` have been looked at.
+/// Cuts edges at their middle, which moves onto the surface. Every edge that a cut makes has a new vertex, so that
+/// edges between vertices before `first_new` have been looked at.
 void refine(TriangleSoup& mesh, const Solid& solid, double spacing, const Refinement& wanted, std::size_t first_new,
             Context& context) {
   struct Edge {

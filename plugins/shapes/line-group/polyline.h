@@ -99,10 +99,9 @@ Estimate fit_straight(const Problem& problem, bool robust);
 /// of the polyline far from every point cost as much as points far from the polyline.
 Estimate fit_polyline(const Problem& problem);
 
-/// Three segments over two working sets, each of which is straight: the middle one joins their nearest ends and needs no
-/// points. It takes the fitted polyline's place where its cost, from the points to it, is less than half of the other's,
-/// from the points to it and back.
-/// \param first, second  the points of the sets, in the problem's frame
+/// Three segments over two working sets, each of which is straight: the middle one joins their nearest ends and needs
+/// no points. It takes the fitted polyline's place where its cost, from the points to it, is less than half of the
+/// other's, from the points to it and back. \param first, second  the points of the sets, in the problem's frame
 void consider_bridge(const Problem& problem, std::span<const Vec3> first, std::span<const Vec3> second,
                      Polyline& polyline);
 
