@@ -93,7 +93,8 @@ double two_sided_cost(const Problem& problem, const Polyline& polyline);
 std::vector<Polyline> starts(const Problem& problem);
 
 /// One segment: least quantile of squares over lines through two points, then reweighted total least squares.
-Estimate fit_straight(const Problem& problem, bool robust);
+/// \param search_points  so many are paired
+Estimate fit_straight(const Problem& problem, bool robust, std::size_t search_points = 24);
 
 /// Several segments: many starts, Levenberg-Marquardt on the vertices under Geman and McClure's robust distance; parts
 /// of the polyline far from every point cost as much as points far from the polyline.

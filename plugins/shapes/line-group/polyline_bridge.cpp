@@ -8,6 +8,8 @@
 namespace toposcope::line_group {
 namespace {
 
+constexpr std::size_t search_points = 8;  // there are many pairs of sets
+
 /// The line of one set, as far as its points go; none where they coincide.
 Polyline straight(std::span<const Vec3> points, double scale) {
   const PrincipalAxes axes = principal_axes(points);
@@ -15,7 +17,7 @@ Polyline straight(std::span<const Vec3> points, double scale) {
   if (!(unit > 1e-12 * axes.centroid.norm())) return {};
   Problem problem{representatives(points, axes.centroid, fit_points), {}, scale / unit, 1, false};
   for (Vec3& point : problem.points) point = (point - axes.centroid) / unit;
-  Polyline line = fit_straight(problem, true).polyline;
+  Polyline line = fit_straight(problem, true, search_points).polyline;
   for (Vec3& vertex : line.vertices) vertex = axes.centroid + unit * vertex;
   trim(line, points, 2 * scale);
   return line;

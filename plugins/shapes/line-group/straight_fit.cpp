@@ -10,8 +10,7 @@
 namespace toposcope::line_group {
 namespace {
 
-constexpr std::size_t search_points = 24;  // lines through all pairs of them: one pair in two is good at 30 % outliers
-constexpr double quantile = 0.65;          // so many points at least belong to the line
+constexpr double quantile = 0.65;  // so many points at least belong to the line
 constexpr int iteration_limit = 200;
 
 struct Line {
@@ -30,7 +29,8 @@ double quantile_of(const Line& line, std::span<const Vec3> points, std::vector<d
   return *at;
 }
 
-Line search(std::span<const Vec3> points, Line best, double& best_value) {
+/// The best of the lines through all pairs of some points: one pair in two is good at 30 % outliers.
+Line search(std::span<const Vec3> points, std::size_t search_points, Line best, double& best_value) {
   const std::vector<Vec3> sample = representatives(points, Vec3::Zero(), 100);
   const std::vector<Vec3> ends = representatives(points, Vec3::Zero(), search_points);
   std::vector<double> scratch;
@@ -67,7 +67,7 @@ double reweight(std::span<const Vec3> points, double width, Line& line) {
 
 }  // namespace
 
-Estimate fit_straight(const Problem& problem, bool robust) {
+Estimate fit_straight(const Problem& problem, bool robust, std::size_t search_points) {
   const PrincipalAxes axes = principal_axes(problem.points);
   Line line{axes.centroid, axes.axes[0]};
   Estimate estimate;
@@ -76,7 +76,7 @@ Estimate fit_straight(const Problem& problem, bool robust) {
   estimate.summary.initial_cost = estimate.summary.final_cost = cost;
   if (robust) {
     double value = 0;
-    line = search(problem.points, line, value);
+    line = search(problem.points, search_points, line, value);
     const double noise = std::sqrt(value / (-2 * std::log(1 - quantile)));  // Rayleigh's quantile
     const double width = std::max(2.5 * noise, 0.1 * problem.scale);
     estimate.summary.termination = Termination::iteration_limit;
