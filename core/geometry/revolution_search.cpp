@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "revolution.h"
+#include "toposcope/representatives.h"
 
 namespace toposcope::revolution {
 namespace {
@@ -23,18 +24,6 @@ constexpr double quantile = 0.65;           // so many points at least belong to
 constexpr double quantile_in_sd = 0.93459;  // of a normal deviation's magnitude
 constexpr double median_in_sd = 0.67449;
 constexpr double width_in_sd = 2.5;  // of the robust loss
-
-/// At most `limit` points, evenly spread over the ranking by distance from the origin, which is their centroid: the
-/// choice depends neither on the pose nor on the order of the points.
-std::vector<Vec3> representatives(std::span<const Vec3> points, std::size_t limit) {
-  std::vector<std::pair<double, Index>> ranking(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) ranking[i] = {points[i].squaredNorm(), static_cast<Index>(i)};
-  std::sort(ranking.begin(), ranking.end());
-  const std::size_t count = std::min(limit, points.size());
-  std::vector<Vec3> chosen(count);
-  for (std::size_t k = 0; k < count; ++k) chosen[k] = points[ranking[k * points.size() / count].second];
-  return chosen;
-}
 
 Revolution moved(const Freedom& freedom, const Revolution& start, const Basis& basis, const double* x) {
   Revolution surface = start;
@@ -86,9 +75,9 @@ class Search {
  public:
   Search(const RevolutionKind& kind, std::vector<Vec3> points, const PrincipalAxes& principal, double noise_floor)
       : kind_(kind), freedom_(kind.freedom()), principal_(principal), noise_floor_(noise_floor) {
-    all_ = representatives(points, refine_points);
-    some_ = representatives(all_, compare_points);
-    few_ = representatives(some_, search_points);
+    all_ = representatives(points, Vec3::Zero(), refine_points);
+    some_ = representatives(all_, Vec3::Zero(), compare_points);
+    few_ = representatives(some_, Vec3::Zero(), search_points);
   }
 
   Estimate run() {

@@ -10,7 +10,7 @@
 namespace toposcope {
 namespace {
 
-constexpr std::size_t most_fits = 300;  // of a feature: twice as many as at the first look
+constexpr std::size_t most_fits = 500;  // of a feature
 constexpr double near_violation = 2;    // in tolerances: a box tells centroid and direction of a shape but roughly
 constexpr std::size_t grain = 32;
 

@@ -144,17 +144,6 @@ void check_radius(Estimate& estimate, double radius_limit) {
     estimate.summary.message = "the points cannot be told from a line: the radius exceeds 100 box diagonals";
 }
 
-std::vector<Vec3> representatives(std::span<const Vec3> points, const Vec3& center, std::size_t limit) {
-  std::vector<std::pair<double, Index>> ranking(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    ranking[i] = {(points[i] - center).squaredNorm(), static_cast<Index>(i)};
-  std::sort(ranking.begin(), ranking.end());
-  const std::size_t count = std::min(limit, points.size());
-  std::vector<Vec3> chosen(count);
-  for (std::size_t k = 0; k < count; ++k) chosen[k] = points[ranking[k * points.size() / count].second];
-  return chosen;
-}
-
 Offset offset(const Circle& circle, const Vec3& point) {
   const Vec3 arm = point - circle.center;
   const double height = arm.dot(circle.normal);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "toposcope/geometry.h"
+#include "toposcope/representatives.h"
 #include "toposcope/shapes.h"
 
 namespace toposcope::circle {
@@ -54,10 +55,6 @@ std::string degeneracy(const PrincipalAxes& axes);
 
 /// A usable estimate above the limit becomes a degenerate one.
 void check_radius(Estimate& estimate, double radius_limit);
-
-/// At most `limit` points, evenly spread over the ranking by distance from `center`: the choice depends neither on
-/// the pose nor on the order of the points.
-std::vector<Vec3> representatives(std::span<const Vec3> points, const Vec3& center, std::size_t limit);
 
 /// The circle of least 65 % quantile of squared distances among many starts, and that quantile; infinite where there
 /// is no circle.

@@ -27,17 +27,6 @@ double coarse_gap(const Problem& problem, std::size_t points) {
   return 1.5 * std::max(problem.scale, spacing);
 }
 
-std::vector<Vec3> representatives(std::span<const Vec3> points, const Vec3& center, std::size_t limit) {
-  std::vector<std::pair<double, Index>> ranking(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    ranking[i] = {(points[i] - center).squaredNorm(), static_cast<Index>(i)};
-  std::sort(ranking.begin(), ranking.end());
-  const std::size_t count = std::min(limit, points.size());
-  std::vector<Vec3> chosen(count);
-  for (std::size_t k = 0; k < count; ++k) chosen[k] = points[ranking[k * points.size() / count].second];
-  return chosen;
-}
-
 void trim(Polyline& polyline, std::span<const Vec3> points, double reach) {
   if (polyline.closed) return;
   const std::size_t last = polyline.segments() - 1;

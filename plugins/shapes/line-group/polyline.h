@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "toposcope/geometry.h"
+#include "toposcope/representatives.h"
 #include "toposcope/shapes.h"
 
 namespace toposcope::line_group {
@@ -55,10 +56,6 @@ inline Nearest nearest(std::span<const Segment> segments, const Vec3& point) {
   }
   return best;
 }
-
-/// At most `limit` points, evenly spread over the ranking by distance from `center`: the choice depends neither on
-/// the pose nor on the order of the points.
-std::vector<Vec3> representatives(std::span<const Vec3> points, const Vec3& center, std::size_t limit);
 
 /// Moves the free ends of an open polyline to the extent of the points within `reach` of their segments' lines.
 void trim(Polyline& polyline, std::span<const Vec3> points, double reach);
