@@ -90,7 +90,7 @@ DepthFusion fusion_for(const Sample& exact, const ScanSettings& settings, double
   const double thinnest = exact.thinnest > 0 ? exact.thinnest : thinnest_allowed * diagonal;
   const double room = std::clamp((exact.gap - thinnest) / 4, 0.0, 0.75 * thinnest);
   const double edge = std::sqrt(4 / std::sqrt(3.0) * area_of(exact.mesh) / settings.faces);
-  const double spacing = std::min(0.5 * (thinnest + 2 * room), 0.7 * edge);
+  const double spacing = std::min(0.5 * (thinnest + 2 * room), 0.6 * edge);
   return {.spacing = spacing, .level = std::max(0.0, spacing - thinnest / 2), .noise = settings.noise_rel * diagonal};
 }
 
@@ -126,7 +126,7 @@ Sample scan(const Sample& exact, const ScanSettings& settings, PluginHost& host,
   const double spacing = fusion.spacing, noise = fusion.noise;
   const std::vector<DepthView> views =
       scan_depths(posed.mesh, chosen_directions(settings, side),
-                  {.pixel = 0.6 * spacing, .distance = 3 * radius, .noise = noise, .seed = settings.seed}, context);
+                  {.pixel = spacing / 2, .distance = 3 * radius, .noise = noise, .seed = settings.seed}, context);
   const Extent box = extent_of(posed.mesh.positions);
   const Vec3 margin = Vec3::Constant(4 * noise);
   TriangleSoup raw = fuse_depths(views, fusion, box.low - margin, box.high + margin, context);

@@ -25,7 +25,7 @@ Sample make_scan_target(const SampleRequest& request, Context& context);
 /// Turns the object at random, moves it by up to its diagonal along each axis, looks at it from viewpoints at three
 /// times its radius, fuses the depths on a grid, extracts the surface, and applies the filters `taubin` and
 /// `normalise`, with a quick thinning between them.
-/// The grid's spacing is 0.7 edges of the wanted mesh, or less where the thinnest part demands it.
+/// The grid's spacing is 0.6 edges of the wanted mesh, or less where the thinnest part demands it.
 ///
 /// Truth: features move with the object (parameters whose length is a multiple of three are points, or directions when
 /// they are called normal, axis or direction); `points` stay exact; `vertices` are the nearest; a face's part is that

@@ -33,7 +33,7 @@ TEST(Representatives, AreAllWhereThereAreFew) {
 TEST(Representatives, DoNotDependOnTheOrder) {
   test::Random random(1);
   std::vector<Vec3> points;
-  for (int i = 0; i < 50; ++i) points.push_back(random.normal3(1));
+  for (int i = 0; i < 50; ++i) points.push_back({random.normal(), random.normal(), random.normal()});
   const std::vector<Vec3> chosen = representatives(points, Vec3::Zero(), 7);
   std::reverse(points.begin(), points.end());
   EXPECT_EQ(representatives(points, Vec3::Zero(), 7), chosen);
