@@ -107,7 +107,7 @@ Sample make_scan_target(const SampleRequest& request, Context& context) {
   // The net may be coarse, as in make_sample: rays do not mind faces of uneven size.
   const double level = net_level(solid);
   const double diagonal = (solid.high - solid.low).norm();
-  const double spacing = std::min(0.55 * (solid.thinnest + 2 * level), 0.03 * diagonal);
+  const double spacing = std::min(0.55 * (solid.thinnest + 2 * level), 0.02 * diagonal);
   const double fine = diagonal * std::min(1.0, std::sqrt(20000.0 / request.faces));
   const Refinement wanted{.tolerance = 0.0004 * fine, .seam = 0.004 * fine};
   try {
