@@ -19,6 +19,7 @@
 #include "support/plugins.h"
 #include "support/program.h"
 #include "toposcope/closest_face.h"
+#include "toposcope/geometry.h"
 
 namespace toposcope {
 namespace {
@@ -223,6 +224,21 @@ TEST(ScanTarget, LiesOnTheExactSurfaceAndIsWatertight) {
       off += std::abs(solid.surface((p[t[0]] + p[t[1]] + p[t[2]]) / 3).value);
     }
     EXPECT_LT(off / static_cast<double>(target.mesh.triangles.size()), 0.0002 * diagonal) << kind;
+  }
+}
+
+/// Three wyes of which a net of cells of 0.03 diagonals loses a rim.
+TEST(ScanTarget, PassesThroughThePointsOfItsFeatures) {
+  RunContext context;
+  for (const std::uint64_t seed : {15, 90, 780}) {
+    const Sample target = make_scan_target({.kind = "wye", .faces = 10000, .seed = seed, .random = true}, context);
+    const ClosestFace surface(target.mesh.positions, target.mesh.triangles);
+    const Box box = oriented_box(target.mesh.positions);
+    for (const SampleFeature& f : target.features) {
+      double farthest = 0;
+      for (const Vec3& p : f.points) farthest = std::max(farthest, surface(p).squared_distance);
+      EXPECT_LT(std::sqrt(farthest), 0.002 * box.diagonal()) << f.name << " of seed " << seed;
+    }
   }
 }
 
