@@ -96,6 +96,18 @@ void refine(TriangleSoup& mesh, const Solid& solid, double spacing, const Refine
   mesh.triangles = std::move(triangles);
 }
 
+/// Whether some vertex lies within `reach` of each feature, at eight of its points.
+bool reaches(const TriangleSoup& mesh, const std::vector<SampleFeature>& features, double reach) {
+  return std::all_of(features.begin(), features.end(), [&](const SampleFeature& feature) {
+    const std::size_t step = std::max<std::size_t>(1, feature.points.size() / 8);
+    for (std::size_t i = 0; i < feature.points.size(); i += step)
+      if (std::none_of(mesh.positions.begin(), mesh.positions.end(),
+                       [&](const Vec3& p) { return (p - feature.points[i]).squaredNorm() <= reach * reach; }))
+        return false;
+    return true;
+  });
+}
+
 }  // namespace
 
 Sample make_scan_target(const SampleRequest& request, Context& context) {
@@ -107,14 +119,19 @@ Sample make_scan_target(const SampleRequest& request, Context& context) {
   // The net may be coarse, as in make_sample: rays do not mind faces of uneven size.
   const double level = net_level(solid);
   const double diagonal = (solid.high - solid.low).norm();
-  const double spacing = std::min(0.55 * (solid.thinnest + 2 * level), 0.02 * diagonal);
+  double spacing = std::min(0.55 * (solid.thinnest + 2 * level), 0.02 * diagonal);
   const double fine = diagonal * std::min(1.0, std::sqrt(20000.0 / request.faces));
   const Refinement wanted{.tolerance = 0.0004 * fine, .seam = 0.004 * fine};
-  try {
-    sample.mesh = extract_isosurface(solid.surface, solid.low, solid.high, spacing, level, context);
-  } catch (const std::length_error&) {
-    throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
-                                 solid.thinnest_parameter, solid.thinnest));
+  // A part that is narrower than a cell is missed, and with it what it bears.
+  for (int attempt = 0; attempt == 0 || (attempt < 4 && !reaches(sample.mesh, solid.features, 2 * spacing));
+       ++attempt) {
+    if (attempt > 0) spacing *= 0.7;
+    try {
+      sample.mesh = extract_isosurface(solid.surface, solid.low, solid.high, spacing, level, context);
+    } catch (const std::length_error&) {
+      throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
+                                   solid.thinnest_parameter, solid.thinnest));
+    }
   }
   for (std::size_t round = 0, first_new = 0; round < 4; ++round) {
     const std::size_t before = sample.mesh.positions.size();
