@@ -21,13 +21,11 @@ Truth truth_of(const Sample& sample) {
     TruthFeature& feature = truth.features.emplace_back();
     feature.name = made.name;
     if (made.groups.empty()) feature.points = made.points;
-    for (const auto& [name, members] : made.groups) {
+    for (const MarkGroup& ring : made.groups) {
       TruthGroup& group = feature.groups.emplace_back();
-      group.name = name;
-      for (const Index i : members) {
-        group.points.push_back(made.points[i]);
-        group.centroid += made.points[i] / static_cast<double>(members.size());
-      }
+      group.name = ring.name;
+      group.centroid = ring.centroid;
+      for (const Index i : ring.members) group.points.push_back(made.points[i]);
     }
     const auto values = [&](std::string_view name) -> const std::vector<double>* {
       for (const auto& [each, list] : made.parameters)
@@ -47,6 +45,7 @@ Sample scanned(const SampleRequest& request, const DatasetMesh& item, PluginHost
   settings.faces = item.faces;
   settings.seen_from = item.view;
   settings.seed = item.seed;
+  settings.parts = false;  // features are judged, not parts
   if (item.noise) settings.noise_rel = *item.noise;
   return scan(make_scan_target(request, context), settings, host, context);
 }

@@ -59,14 +59,13 @@ PlanePath cavity_profile(const Cup& c) {
 
 /// The ring where the fillet is as far from the wall as from the handle, around one end of the handle.
 std::vector<Vec3> fillet_ring(const Cup& c, const Solid& solid, const Implicit& body, const Implicit& handle,
-                              const Vec3& end) {
+                              const Vec3& end, int count) {
   const Implicit between = [&](const Vec3& point) -> Distance {
     const Distance a = body(point), b = handle(point);
     return {a.value - b.value, a.gradient - b.gradient};
   };
   const Vec3 out = body(end).gradient, across = Vec3::UnitY(), up = out.cross(across);
   std::vector<Vec3> ring;
-  constexpr int count = 32;
   for (int i = 0; i < count; ++i) {
     const double angle = 2 * pi * i / count;
     const Vec3 start =
@@ -74,6 +73,18 @@ std::vector<Vec3> fillet_ring(const Cup& c, const Solid& solid, const Implicit& 
     ring.push_back(project_to_curve(solid.surface, between, start));
   }
   return ring;
+}
+
+/// Centroid of a closed line through points.
+Vec3 centroid_of_ring(const std::vector<Vec3>& ring) {
+  Vec3 moment = Vec3::Zero();
+  double length = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec3 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    moment += (b - a).norm() * (a + b) / 2;
+    length += (b - a).norm();
+  }
+  return moment / length;
 }
 
 SampleFeature bottom_feature(double radius, double height) {
@@ -94,13 +105,15 @@ SampleFeature handle_feature(const Cup& c, const Solid& solid, const Implicit& b
     const double z = c.handle_center + (upper ? 0.5 : -0.5) * c.handle_height;
     const Vec3 end(c.side.radius(z), 0, z);
     ends.insert(ends.end(), {end.x(), end.y(), end.z()});
-    const std::vector<Vec3> ring = fillet_ring(c, solid, body, handle, end);
-    std::vector<Index> members;
-    for (const Vec3& point : ring) {
-      members.push_back(static_cast<Index>(feature.points.size()));
-      feature.points.push_back(point);
+    constexpr int marks = 32, between = 8;
+    const std::vector<Vec3> ring = fillet_ring(c, solid, body, handle, end, marks * between);
+    MarkGroup& group = feature.groups.emplace_back();
+    group.name = upper ? "upper" : "lower";
+    group.centroid = centroid_of_ring(ring);
+    for (std::size_t i = 0; i < ring.size(); i += between) {
+      group.members.push_back(static_cast<Index>(feature.points.size()));
+      feature.points.push_back(ring[i]);
     }
-    feature.groups.emplace_back(upper ? "upper" : "lower", std::move(members));
   }
   feature.parameters = {{"endpoints", ends}, {"closed", {0}}};
   return feature;

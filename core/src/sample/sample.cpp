@@ -164,9 +164,9 @@ void mark_vertices(SampleFeature& feature, const std::vector<Vec3>& positions) {
     feature.vertices.push_back(vertex);
   }
   feature.points = std::move(points);
-  for (auto& [name, members] : feature.groups) {
-    std::erase_if(members, [&](Index i) { return !kept[i]; });
-    for (Index& i : members) i = renumbered[i];
+  for (MarkGroup& group : feature.groups) {
+    std::erase_if(group.members, [&](Index i) { return !kept[i]; });
+    for (Index& i : group.members) i = renumbered[i];
   }
 }
 

@@ -57,6 +57,13 @@ struct SampleRequest {
 };
 
 /// A feature of the object with its exact shape.
+/// A ring of marks.
+struct MarkGroup {
+  std::string name;
+  std::vector<Index> members;  ///< into the feature's points
+  Vec3 centroid;               ///< of the whole exact ring, whatever marks of it are kept
+};
+
 struct SampleFeature {
   std::string name;
   std::string shape;  ///< circle, plane, line-group
@@ -64,7 +71,7 @@ struct SampleFeature {
   std::vector<std::pair<std::string, std::vector<double>>> parameters;
   std::vector<Vec3> points;     ///< on the exact surface, before noise; empty where the object lacks the feature
   std::vector<Index> vertices;  ///< for each point the mesh vertex nearest to it; no vertex twice
-  std::vector<std::pair<std::string, std::vector<Index>>> groups;  ///< named sets of indices into `points`
+  std::vector<MarkGroup> groups;
 };
 
 /// How an object was scanned (scan.h).

@@ -102,7 +102,7 @@ std::vector<Stations::Filter> filters_for(PluginHost& host, Index faces, int smo
   };
   // Normalising is the slow step: it gets few faces more than are wanted, and needs no more than two rounds for that.
   return {plugin("taubin", {{"passes", std::to_string(smoothing)}}),
-          {"thin", std::make_shared<Thin>(faces + faces / 10)},
+          {"thin", std::make_shared<Thin>(faces + faces / 40)},
           plugin("normalise", {{"faces", std::to_string(faces)}, {"rounds", "2"}})};
 }
 
@@ -119,6 +119,7 @@ Sample scan(const Sample& exact, const ScanSettings& settings, PluginHost& host,
 
   // The scanner looks at the origin; the object moves to its place in the end.
   Sample posed = exact;
+  if (!settings.parts) posed.part_names.clear();
   for (Vec3& p : posed.mesh.positions) p = rotation * (p - extent.center());
   double radius = 0;
   for (const Vec3& p : posed.mesh.positions) radius = std::max(radius, p.norm());

@@ -16,6 +16,7 @@ struct ScanSettings {
   double noise_rel = 0.0005;  ///< standard deviation of the noise along the ray, in diagonals of the object's box
   int smoothing = 3;          ///< passes of Taubin's filter
   std::uint64_t seed = 1;     ///< of pose, noise and choice of viewpoints
+  bool parts = true;          ///< whether the truth tells the part of every face
 };
 
 /// An object as make_sample makes it, but with the mesh that a scan wants: its vertices lie on the exact surface, as do

@@ -53,6 +53,7 @@ bool is_direction(const std::string& name) {
 void move_feature(SampleFeature& feature, const Pose& pose) {
   const auto place = [&](const Vec3& p) { return Vec3(pose.rotation * (p - pose.center) + pose.translation); };
   for (Vec3& p : feature.points) p = place(p);
+  for (MarkGroup& group : feature.groups) group.centroid = place(group.centroid);
   for (auto& [name, values] : feature.parameters) {
     if (values.empty() || values.size() % 3 != 0) continue;
     for (std::size_t i = 0; i < values.size(); i += 3) {
@@ -77,11 +78,11 @@ void keep_near(SampleFeature& feature, const ClosestFace& surface, double reach)
     feature.groups.clear();
   }
   feature.points = std::move(points);
-  for (auto& [name, members] : feature.groups) {
-    std::erase_if(members, [&](Index i) { return number[i] == no_index; });
-    for (Index& i : members) i = number[i];
+  for (MarkGroup& group : feature.groups) {
+    std::erase_if(group.members, [&](Index i) { return number[i] == no_index; });
+    for (Index& i : group.members) i = number[i];
   }
-  std::erase_if(feature.groups, [](const auto& group) { return group.second.empty(); });
+  std::erase_if(feature.groups, [](const MarkGroup& group) { return group.members.empty(); });
 }
 
 }  // namespace

@@ -29,25 +29,22 @@ Json parameter_value(const std::string& name, const std::vector<double>& values)
   return list;
 }
 
-Json group_json(const SampleFeature& feature, const std::string& name, const std::vector<Index>& members) {
+Json group_json(const SampleFeature& feature, const MarkGroup& group) {
   std::vector<Vec3> points;
   std::vector<Index> vertices;
-  Vec3 sum = Vec3::Zero();
-  for (const Index i : members) {
+  for (const Index i : group.members) {
     points.push_back(feature.points[i]);
     vertices.push_back(feature.vertices[i]);
-    sum += feature.points[i];
   }
-  Json group = {{"name", name}, {"vertices", vertices}, {"points", triples(points)}};
-  if (!members.empty()) group["centroid"] = triple(sum / static_cast<double>(members.size()));
-  return group;
+  return {
+      {"name", group.name}, {"vertices", vertices}, {"points", triples(points)}, {"centroid", triple(group.centroid)}};
 }
 
 Json feature_json(const SampleFeature& feature) {
   Json json = {{"vertices", feature.vertices}, {"points", triples(feature.points)}, {"shape", feature.shape}};
   if (feature.shape == "line-group") {
     json["groups"] = Json::array();
-    for (const auto& [name, members] : feature.groups) json["groups"].push_back(group_json(feature, name, members));
+    for (const MarkGroup& group : feature.groups) json["groups"].push_back(group_json(feature, group));
   }
   json["parameters"] = Json::object();
   for (const auto& [name, values] : feature.parameters) json["parameters"][name] = parameter_value(name, values);

@@ -73,8 +73,9 @@ TEST(Cup, EveryHandleShapeHasAHoleAndMeetsTheWallTwice) {
     EXPECT_GT(solid.surface(Vec3(cup.side.radius(50) + 6, 0, 50)).value, 0) << "the hole";
     const SampleFeature& handle = feature(solid, "handleCon");
     ASSERT_EQ(handle.groups.size(), 2U);
-    for (const auto& [name, members] : handle.groups)
-      for (const Index i : members) EXPECT_NEAR(handle.points[i].z(), name == "upper" ? 77 : 23, 5 + 4 + 1.5);
+    for (const MarkGroup& group : handle.groups)
+      for (const Index i : group.members)
+        EXPECT_NEAR(handle.points[i].z(), group.name == "upper" ? 77 : 23, 5 + 4 + 1.5);
     for (const Vec3& p : handle.points) EXPECT_NEAR(solid.surface(p).value, 0, 1e-9);
   }
 }

@@ -220,15 +220,31 @@ TEST(Sample, HandleEndsLieOnTheWallAndTheirRingsAroundThem) {
     const Vec3 end(ends[3 * g], ends[3 * g + 1], ends[3 * g + 2]);
     EXPECT_NEAR(end.x(), 35 + 6 * end.z() / 95, 1e-9);
     EXPECT_NEAR(end.z(), g == 0 ? 77 : 23, 1e-9);
-    Vec3 centroid = Vec3::Zero();
-    for (const Index i : f.groups[g].second) {
+    for (const Index i : f.groups[g].members) {
       const double distance = (f.points[i] - end).norm();
       EXPECT_GT(distance, 5) << "the handle's radius";
       EXPECT_LT(distance, 5 + 4 + 1) << "with its fillet";
-      centroid += f.points[i] / static_cast<double>(f.groups[g].second.size());
     }
-    EXPECT_GT(f.groups[g].second.size(), 15U);
-    EXPECT_LT((centroid - end).norm(), 2);
+    EXPECT_GT(f.groups[g].members.size(), 15U);
+    EXPECT_LT((f.groups[g].centroid - end).norm(), 2);
+  }
+}
+
+TEST(Sample, CentroidsOfTheHandlesRingsDoNotHangOnTheMesh) {
+  const Sample coarse = make({.kind = "cup", .faces = 2000}), fine = make({.kind = "cup", .faces = 30000});
+  const SampleFeature &few = feature(coarse, "handleCon"), &many = feature(fine, "handleCon");
+  EXPECT_LT(few.points.size(), many.points.size()) << "marks whose vertex is taken are dropped";
+  for (std::size_t g = 0; g < 2; ++g) EXPECT_EQ(few.groups[g].centroid, many.groups[g].centroid);
+  // The ring is a line: its centroid is the mean along it, not that of points that lie closer on one side.
+  for (const MarkGroup& group : many.groups) {
+    Vec3 moment = Vec3::Zero();
+    double length = 0;
+    for (std::size_t i = 0; i < group.members.size(); ++i) {
+      const Vec3 &a = many.points[group.members[i]], &b = many.points[group.members[(i + 1) % group.members.size()]];
+      moment += (b - a).norm() * (a + b) / 2;
+      length += (b - a).norm();
+    }
+    EXPECT_LT((moment / length - group.centroid).norm(), 0.1);
   }
 }
 

@@ -178,7 +178,7 @@ TEST(Scan, SeenFromOneSideIsOpenAndTellsOnlyWhatIsThere) {
         EXPECT_GE(static_cast<double>(f.points.size()), 0.8 * least_share * all) << f.name;
       }
       for (const Vec3& p : f.points) EXPECT_LE(std::sqrt(surface(p).squared_distance), 3 * part.scan->spacing);
-      for (const auto& [name, members] : f.groups) EXPECT_FALSE(members.empty());
+      for (const MarkGroup& group : f.groups) EXPECT_FALSE(group.members.empty());
     }
   }
   EXPECT_FALSE(dropped.empty());
