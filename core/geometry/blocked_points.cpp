@@ -6,11 +6,18 @@
 namespace toposcope::geometry {
 namespace {
 
-constexpr std::size_t block_size = 256;
+constexpr std::size_t block_size = 64;
 
 }  // namespace
 
-BlockedPoints::BlockedPoints(std::vector<Vec3> points) : points_(std::move(points)) {
+BlockedPoints::BlockedPoints(std::vector<Vec3> points)
+    : points_(std::move(points)), x_(points_.size()), y_(points_.size()), z_(points_.size()) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    x_[at] = points_[i].x();
+    y_[at] = points_[i].y();
+    z_[at] = points_[i].z();
+  }
   blocks_.reserve(points_.size() / block_size + 1);
   for (std::size_t begin = 0; begin < points_.size(); begin += block_size) {
     Block block{points_[begin], points_[begin]};
@@ -30,15 +37,20 @@ Index BlockedPoints::farthest(const Vec3& axis) const {
     return along({axis.x() > 0 ? block.high.x() : block.low.x(), axis.y() > 0 ? block.high.y() : block.low.y(),
                   axis.z() > 0 ? block.high.z() : block.low.z()});
   };
+  Eigen::Array<double, Eigen::Dynamic, 1, 0, block_size, 1> places;
   std::size_t best = 0;
   double best_along = along(points_[0]);
   const auto search = [&](std::size_t b) {
-    const std::size_t end = std::min((b + 1) * block_size, points_.size());
-    for (std::size_t i = b * block_size; i < end; ++i)
-      if (const double a = along(points_[i]); a > best_along || (a == best_along && i < best)) {
-        best = i;
-        best_along = a;
-      }
+    const std::size_t first = b * block_size, count = std::min(block_size, points_.size() - first);
+    const auto part = [&](const Eigen::ArrayXd& all) {
+      return all.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count));
+    };
+    places = part(x_) * axis.x() + part(y_) * axis.y() + part(z_) * axis.z();
+    const double most = places.maxCoeff();
+    if (!(most > best_along || (most == best_along && first < best))) return;
+    const auto* const at = std::find(places.data(), places.data() + count, most);
+    best = first + static_cast<std::size_t>(at - places.data());
+    best_along = most;
   };
   std::size_t promising = 0;
   double best_bound = bound(blocks_[0]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,7 @@ class BlockedPoints {
     Vec3 low, high;
   };
   std::vector<Vec3> points_;
+  Eigen::ArrayXd x_, y_, z_;  // once more, apart, so that a block's places along an axis are few vector operations
   std::vector<Block> blocks_;
 };
 

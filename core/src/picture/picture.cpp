@@ -13,8 +13,8 @@ namespace {
 
 using Vec3f = Eigen::Vector3f;
 
-constexpr int strip_rows = 16;   // of pixels, drawn at a time
-constexpr float behind = 0.28F;  // what a hidden line keeps of its colour
+constexpr int strip_samples = 1 << 17;  // drawn at a time: a few megabytes, and each strip looks at all triangles
+constexpr float behind = 0.28F;         // what a hidden line keeps of its colour
 constexpr float sheet_opacity = 0.45F;
 constexpr float hidden_sheet = 0.07F;
 constexpr float edge_darkness = 0.34F;
@@ -199,18 +199,20 @@ PictureStyle thumbnail_style(int width, int height) {
   PictureStyle style;
   style.width = width;
   style.height = height;
-  style.directions = 48;
-  style.light_pixels = 96;
+  style.samples = 2;
+  style.directions = 24;
+  style.light_pixels = 64;
   return style;
 }
 
 Image draw_picture(const Composition& composition, const Camera& camera, const PictureStyle& style, Context& context) {
   Painter painter(composition, camera, style, context);
-  const std::size_t strips = static_cast<std::size_t>((style.height + strip_rows - 1) / strip_rows);
+  const int rows = std::max(1, strip_samples / (style.width * style.samples * style.samples));
+  const std::size_t strips = static_cast<std::size_t>((style.height + rows - 1) / rows);
   context.parallel_for(strips, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      const int top = static_cast<int>(i) * strip_rows;
-      painter.paint(top, std::min(style.height, top + strip_rows));
+      const int top = static_cast<int>(i) * rows;
+      painter.paint(top, std::min(style.height, top + rows));
     }
   });
   return painter.take();

@@ -7,11 +7,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace toposcope::circle {
 namespace {
 
 constexpr std::size_t refine_points = 400;  // enough for 0.1 % of the radius under 5 % noise
+constexpr std::size_t rough_points = 120;   // enough to find the noise
 constexpr int iteration_limit = 200;
 constexpr std::size_t search_points = 80;
 const double median_to_sd = 1 / std::sqrt(2 * std::log(2.0));  // of the length of two normal components
@@ -70,7 +72,16 @@ class RobustResiduals {
       height = g * (height - e.height * fall);
       radial[6] = g * e.radial;
       height[6] = g * e.height;
-      for (int k = 0; k < NUM_RESIDUALS; ++k) sums.col(k) += radial[k] * radial + height[k] * height;
+      // The lower triangle is all that LDLT reads; columns begin at a whole vector register.
+      const auto add = [&]<int k>(std::integral_constant<int, k>) {
+        constexpr int rows = 8 - k / 2 * 2;
+        sums.col(k).template tail<rows>() +=
+            radial[k] * radial.template tail<rows>() + height[k] * height.template tail<rows>();
+      };
+      [&]<int... k>(std::integer_sequence<int, k...>) {
+        (add(std::integral_constant<int, k>()), ...);
+      }
+      (std::make_integer_sequence<int, NUM_RESIDUALS>());
     }
     using Square = Eigen::Matrix<double, NUM_RESIDUALS, NUM_RESIDUALS>;
     const Eigen::LDLT<Square> factors(sums.topLeftCorner<NUM_RESIDUALS, NUM_RESIDUALS>());
@@ -144,29 +155,6 @@ void check_radius(Estimate& estimate, double radius_limit) {
     estimate.summary.message = "the points cannot be told from a line: the radius exceeds 100 box diagonals";
 }
 
-Offset offset(const Circle& circle, const Vec3& point) {
-  const Vec3 arm = point - circle.center;
-  const double height = arm.dot(circle.normal);
-  return {(arm - height * circle.normal).norm() - circle.radius, height};
-}
-
-Eigen::Matrix<double, 2, 6> offset_derivative(const Circle& circle, const Vec3& u, const Vec3& v, const Vec3& point) {
-  const Vec3 arm = point - circle.center;
-  const double height = arm.dot(circle.normal);
-  const Vec3 lateral = arm - height * circle.normal;
-  const double length = lateral.norm(), inverse = length > 0 ? 1 / length : 0;
-  const double along_u = arm.dot(u), along_v = arm.dot(v);
-  Eigen::Matrix<double, 2, 6> derivative;
-  for (int axis = 0; axis < 3; ++axis) {
-    derivative(0, axis) = -inverse * lateral[axis];
-    derivative(1, axis) = -circle.normal[axis];
-  }
-  derivative(0, 3) = -height * inverse * along_u, derivative(1, 3) = along_u;
-  derivative(0, 4) = -height * inverse * along_v, derivative(1, 4) = along_v;
-  derivative(0, 5) = -1, derivative(1, 5) = 0;
-  return derivative;
-}
-
 Estimate fit_robust(std::span<const Vec3> points, double noise_floor, double radius_limit) {
   Estimate estimate;
   const PrincipalAxes axes = principal_axes(points);
@@ -186,15 +174,15 @@ Estimate fit_robust(std::span<const Vec3> points, double noise_floor, double rad
   }
   Circle circle = start.circle;
   double noise = std::max(noise_of_quantile(start.quantile), floor);
-  double initial_cost = 0;
-  for (int round = 0; round < 3; ++round) {
+  const std::vector<Vec3> rough = representatives(sample, Vec3::Zero(), rough_points);
+  for (int round = 0; round < 2; ++round) {
     noise = noise_of(sample, circle, noise, floor);
-    const double tolerance = round < 2 ? 1e-6 : 1e-13;  // the first rounds only serve to find the noise
-    minimize(sample, 2.5 * noise, tolerance, circle, estimate.summary);
-    if (round == 0) initial_cost = estimate.summary.initial_cost;
+    minimize(rough, 2.5 * noise, 1e-6, circle, estimate.summary);
   }
+  noise = noise_of(sample, circle, noise, floor);
+  minimize(sample, 2.5 * noise, 1e-11, circle, estimate.summary);
   estimate.circle = {axes.centroid + unit * circle.center, circle.normal, unit * circle.radius};
-  estimate.summary.initial_cost = initial_cost * unit * unit;
+  estimate.summary.initial_cost *= unit * unit;
   estimate.summary.final_cost *= unit * unit;
   check_radius(estimate, radius_limit);
   return estimate;

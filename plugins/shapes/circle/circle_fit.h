@@ -5,6 +5,7 @@
 // the points' centroid and spread.
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,11 +28,31 @@ struct Offset {
   double radial = 0, height = 0;
   double squared() const { return radial * radial + height * height; }
 };
-Offset offset(const Circle& circle, const Vec3& point);
+inline Offset offset(const Circle& circle, const Vec3& point) {
+  const Vec3 arm = point - circle.center;
+  const double height = arm.dot(circle.normal);
+  return {(arm - height * circle.normal).norm() - circle.radius, height};
+}
 
 /// Derivative of (radial, height) by the centre, by a change of the normal along `u` and along `v`, and by the radius.
 /// \param u, v  perpendicular to the normal, of any length
-Eigen::Matrix<double, 2, 6> offset_derivative(const Circle& circle, const Vec3& u, const Vec3& v, const Vec3& point);
+inline Eigen::Matrix<double, 2, 6> offset_derivative(const Circle& circle, const Vec3& u, const Vec3& v,
+                                                     const Vec3& point) {
+  const Vec3 arm = point - circle.center;
+  const double height = arm.dot(circle.normal);
+  const Vec3 lateral = arm - height * circle.normal;
+  const double length = lateral.norm(), inverse = length > 0 ? 1 / length : 0;
+  const double along_u = arm.dot(u), along_v = arm.dot(v);
+  Eigen::Matrix<double, 2, 6> derivative;
+  for (int axis = 0; axis < 3; ++axis) {
+    derivative(0, axis) = -inverse * lateral[axis];
+    derivative(1, axis) = -circle.normal[axis];
+  }
+  derivative(0, 3) = -height * inverse * along_u, derivative(1, 3) = along_u;
+  derivative(0, 4) = -height * inverse * along_v, derivative(1, 4) = along_v;
+  derivative(0, 5) = -1, derivative(1, 5) = 0;
+  return derivative;
+}
 
 struct Estimate {
   Circle circle;
