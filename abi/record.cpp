@@ -138,7 +138,7 @@ void print_shapes() {
                               MEMBER(centroid_sd) MEMBER(outline) MEMBER(outline_closed) MEMBER(rms) MEMBER(explained)
                                   MEMBER(unexplained) MEMBER(coverage))
   STRUCT(FitInput, MEMBER(points) MEMBER(areas) MEMBER(set_offsets) MEMBER(set_boxes) MEMBER(box) MEMBER(object_box)
-                       MEMBER(mean_edge))
+                       MEMBER(mean_edge) MEMBER(bends))
   STRUCT(Interval, MEMBER(low) MEMBER(high))
 }
 

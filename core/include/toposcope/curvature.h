@@ -98,6 +98,12 @@ int rings_within(const MeshView& mesh, double radius);
 
 /// \}
 
+/// Mean curvature integrated over the surface that each vertex stands for, length; convex is positive. A quarter of
+/// length times dihedral angle of each edge at the vertex: half of what the edge has, which its ends share
+/// (Cohen-Steiner and Morvan, Restricted Delaunay triangulations and normal cycle, SoCG 2003). Edges without two faces
+/// that run along them in opposite directions have none.
+std::vector<double> mean_curvature_measure(const MeshView& mesh);
+
 /// Sum of the triangles' areas.
 double surface_area(const MeshView& mesh);
 

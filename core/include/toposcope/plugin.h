@@ -19,7 +19,7 @@
 namespace toposcope {
 
 inline constexpr std::uint32_t abi_major = 2;  ///< differs: refused
-inline constexpr std::uint32_t abi_minor = 1;  ///< a plugin built against a newer minor is refused
+inline constexpr std::uint32_t abi_minor = 2;  ///< a plugin built against a newer minor is refused
 
 #define TOPOSCOPE_STRINGIFY_(x) #x
 #define TOPOSCOPE_STRINGIFY(x) TOPOSCOPE_STRINGIFY_(x)

@@ -98,6 +98,7 @@ struct FitInput {
   Box box;                             ///< bb(w): of all points
   Box object_box;                      ///< bb(O)
   double mean_edge = 0;
+  std::span<const double> bends = {};  ///< that surface's mean_curvature_measure (curvature.h); since 2.2
 };
 
 struct Interval {

@@ -25,7 +25,11 @@ bool is_amount(double x) {
 class ShapeTrial final : public Trial {
  public:
   ShapeTrial(PointSets points, const PluginManifest& plugin)
-      : Trial(points.name), points_(std::move(points)), plugin_(plugin), areas_(points_.points.size(), 0) {
+      : Trial(points.name),
+        points_(std::move(points)),
+        plugin_(plugin),
+        areas_(points_.points.size(), 0),
+        bends_(points_.points.size(), points_.mean_edge) {
     const auto box_of = [](std::span<const Vec3> set) {
       for (const Vec3& p : set)
         if (!p.allFinite()) return Box{};
@@ -43,8 +47,9 @@ class ShapeTrial final : public Trial {
     auto fitted = std::make_shared<Fitted>();
     Box object_box = box_;
     for (double& side : object_box.sides) side *= 1.5;
-    fitted->shape = fitter.fit({points_.points, areas_, points_.offsets, boxes_, box_, object_box, points_.mean_edge},
-                               arguments, context);
+    fitted->shape =
+        fitter.fit({points_.points, areas_, points_.offsets, boxes_, box_, object_box, points_.mean_edge, bends_},
+                   arguments, context);
     if (fitted->shape.summary.usable())
       for (std::size_t i = 0; i < points_.points.size(); i += 1 + points_.points.size() / 16)
         fitted->distances.push_back(fitter.distance(fitted->shape, points_.points[i]));
@@ -157,7 +162,7 @@ class ShapeTrial final : public Trial {
 
   PointSets points_;
   const PluginManifest& plugin_;
-  std::vector<double> areas_;
+  std::vector<double> areas_, bends_;
   std::vector<Box> boxes_;
   Box box_;
 };

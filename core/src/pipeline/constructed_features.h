@@ -42,6 +42,7 @@ struct FeatureCandidates {
 
 struct ConstructedFeatures {
   std::vector<Box> set_boxes;  ///< of the working sets
+  VertexMeasures of_vertices;
   std::vector<ConstructedFeature> all;
   std::vector<FeatureCandidates> of_feature;  ///< one per model feature
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/errors.h"
+#include "toposcope/curvature.h"
 #include "toposcope/geometry.h"
 
 namespace toposcope {
@@ -52,15 +53,17 @@ void WorkingSetGroups::keep(const std::vector<std::size_t>& groups) {
   groups_ = std::move(kept);
 }
 
-void GroupPoints::gather(const MeshView& mesh, std::span<const double> vertex_areas, const WorkingSets& sets,
+void GroupPoints::gather(const MeshView& mesh, const VertexMeasures& measures, const WorkingSets& sets,
                          std::span<const Index> group) {
   points.clear();
   areas.clear();
+  bends.clear();
   offsets.assign(1, 0);
   for (Index s : group) {
     for (Index v : sets[s]) {
       points.push_back(mesh.positions[v]);
-      areas.push_back(vertex_areas[v]);
+      areas.push_back(measures.areas[v]);
+      bends.push_back(measures.bends[v]);
     }
     offsets.push_back(static_cast<Index>(points.size()));
   }
@@ -79,14 +82,13 @@ Box principal_box(std::span<const Vec3> points) {
   return box;
 }
 
-std::vector<double> areas_of_vertices(const MeshView& mesh) {
-  std::vector<double> areas(mesh.vertex_count(), 0);
+VertexMeasures::VertexMeasures(const MeshView& mesh)
+    : areas(mesh.vertex_count(), 0), bends(mean_curvature_measure(mesh)) {
   for (const auto& [a, b, c] : mesh.triangles) {
     const double third =
         (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]).norm() / 6;
     for (Index v : {a, b, c}) areas[v] += third;
   }
-  return areas;
 }
 
 bool same_places(const BitMatrix& overlap, std::span<const Index> a, std::span<const Index> b) {

@@ -36,21 +36,27 @@ class WorkingSetGroups {
   std::vector<Index> groups_;  ///< one after the other
 };
 
+/// What fits are told of the surface around each vertex.
+struct VertexMeasures {
+  std::vector<double> areas;  ///< a third of the triangles around it
+  std::vector<double> bends;  ///< mean_curvature_measure
+
+  explicit VertexMeasures(const MeshView& mesh);
+  VertexMeasures() = default;
+};
+
 /// The points of a group of working sets, one set after the other.
 struct GroupPoints {
   std::vector<Vec3> points;
-  std::vector<double> areas;
+  std::vector<double> areas, bends;
   std::vector<Index> offsets;
 
-  void gather(const MeshView& mesh, std::span<const double> vertex_areas, const WorkingSets& sets,
+  void gather(const MeshView& mesh, const VertexMeasures& measures, const WorkingSets& sets,
               std::span<const Index> group);
 };
 
 /// The box along the principal axes: a stand-in for bb(w) of many groups, of which few are kept.
 Box principal_box(std::span<const Vec3> points);
-
-/// A third of the triangles around each vertex.
-std::vector<double> areas_of_vertices(const MeshView& mesh);
 
 /// Whether two groups lie in the same places: each set of one overlaps its counterpart of the other, in either order.
 bool same_places(const BitMatrix& overlap, std::span<const Index> a, std::span<const Index> b);

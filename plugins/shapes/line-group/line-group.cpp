@@ -27,6 +27,10 @@ std::string obstacle(const FitInput& input, int segments, bool closed, bool cent
   return {};
 }
 
+Weight weight_of(const std::string& ends) {
+  return ends == "concave" ? Weight::concave : ends == "convex" ? Weight::convex : Weight::area;
+}
+
 class LineGroupFitter final : public ShapeFitter {
  public:
   explicit LineGroupFitter(const Options& options)
@@ -35,12 +39,12 @@ class LineGroupFitter final : public ShapeFitter {
   FittedShape fit(const FitInput& input, const Options& arguments, Context&) const override {
     FittedShape shape;
     const int segments = arguments.integer("segments");
-    const bool closed = arguments.boolean("closed"), centroids = arguments.text("ends") == "centroids";
+    const bool closed = arguments.boolean("closed"), centroids = arguments.text("ends") != "extent";
     shape.summary.termination = Termination::degenerate;
     shape.summary.message = obstacle(input, segments, closed, centroids);
     if (!shape.summary.message.empty()) return shape;
     if (centroids) {
-      describe_centroids(input, shape);
+      describe_centroids(input, weight_of(arguments.text("ends")), shape);
       return shape;
     }
     const PrincipalAxes axes = principal_axes(input.points);
@@ -92,7 +96,7 @@ class LineGroupFitter final : public ShapeFitter {
 
   /// A longer segment is refused as one that has run away from its points.
   Interval bounds(std::string_view measure, std::span<const Box> sets, const Options& arguments) const override {
-    if (arguments.text("ends") == "centroids" && sets.size() >= 2) {
+    if (arguments.text("ends") != "extent" && sets.size() >= 2) {
       const Ends ends(sets.front(), sets.back());
       if (measure == "end_size") return {ends.size, ends.size};
       if (measure == "end_depth") return {ends.depth, ends.depth};
@@ -119,21 +123,23 @@ constexpr OptionSpec options[] = {
 constexpr OptionSpec arguments[] = {
     {"segments", OptionType::integer, "", "1", "1", "16", "number of line segments"},
     {"closed", OptionType::boolean, "", "false", "", "", "the last endpoint is joined to the first"},
-    {"ends", OptionType::text, "", "extent", "extent|centroids", "",
-     "one segment ends where the points end, or at the centroids of the first and the last working set"},
+    {"ends", OptionType::text, "", "extent", "extent|centroids|concave|convex", "",
+     "one segment ends where the points end; or at the centroids of the first and the last working set's surface, or "
+     "of how "
+     "much that bends inwards or outwards"},
 };
 constexpr ProvidedName measures[] = {
     {"length_#", 1, "length of segment #, from 1"},
     {"length", 1, "sum of the segments' lengths"},
-    {"end_size", 1, "ends: centroids: longest side of the two ends' boxes"},
-    {"end_depth", 0, "ends: centroids: least of the ends' shortest over longest side"}};
+    {"end_size", 1, "ends other than extent: longest side of the two ends' boxes"},
+    {"end_depth", 0, "ends other than extent: least of the ends' shortest over longest side"}};
 
 }  // namespace
 }  // namespace toposcope::line_group
 
 TOPOSCOPE_PLUGIN(ShapeFitter, toposcope::line_group::LineGroupFitter,
                  {.id = "line-group",
-                  .version = "1.0.0",
+                  .version = "1.1.0",
                   .summary = "connected line segments, open or closed: endpoints and lengths",
                   .citation = "Neal 1999, section 4.4.2",
                   .min_arity = 1,

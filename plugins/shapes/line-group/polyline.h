@@ -3,6 +3,7 @@
 
 // Polylines and the ways to fit them. All work on any scale and in any pose.
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <limits>
 #include <span>
@@ -110,8 +111,16 @@ Estimate fit_powell(const Problem& problem);
 /// \param reach  points within it belong to the polyline, mesh unit
 void describe(const Polyline& polyline, const FitInput& input, double reach, FittedShape& shape);
 
-/// Segment between the centroids of the first and the last working set (dissertation 3.4.1, Figure 3.5).
-void describe_centroids(const FitInput& input, FittedShape& shape);
+/// Parameters, measures, position and outline of a line group from the covariance of its vertices.
+void set_shape(const Polyline& polyline, const Eigen::MatrixXd& covariance, double mean_edge, FittedShape& shape);
+
+/// What the points of a working set weigh: the surface that they stand for, or how much that bends inwards or outwards.
+/// Where a set of fillets ends hangs on a threshold, and that moves the centroid of its surface; there it bends least.
+enum class Weight { area, concave, convex };
+
+/// Segment between the centroids of the first and the last working set (dissertation 3.4.1, Figure 3.5: of the
+/// surface).
+void describe_centroids(const FitInput& input, Weight weight, FittedShape& shape);
 
 /// What the boxes of the first and the last working set say of a segment between their centroids.
 struct Ends {

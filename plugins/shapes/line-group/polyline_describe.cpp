@@ -84,6 +84,8 @@ void set_position(const Polyline& polyline, const Eigen::MatrixXd& covariance, F
   shape.centroid_sd = std::sqrt(std::max(0.0, mean.trace() / 3)) / static_cast<double>(v.size());
 }
 
+}  // namespace
+
 void set_shape(const Polyline& polyline, const Eigen::MatrixXd& covariance, double mean_edge, FittedShape& shape) {
   ShapeParameter endpoints{"endpoints", 3, {}};
   for (std::size_t i = 0; i < polyline.vertices.size(); ++i) {
@@ -102,8 +104,6 @@ void set_shape(const Polyline& polyline, const Eigen::MatrixXd& covariance, doub
   if (polyline.closed && shape.outline.size() > 1) shape.outline.pop_back();
   shape.outline_closed = polyline.closed;
 }
-
-}  // namespace
 
 void describe(const Polyline& polyline, const FitInput& input, double reach, FittedShape& shape) {
   const double edge = input.mean_edge, diagonal = input.box.diagonal();
@@ -170,54 +170,5 @@ void describe(const Polyline& polyline, const FitInput& input, double reach, Fit
   const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
   set_shape(polyline, covariance, edge, shape);
 }
-
-void describe_centroids(const FitInput& input, FittedShape& shape) {
-  const std::size_t sets = input.set_offsets.size() - 1;
-  const auto set = [&](std::size_t k) {
-    return input.points.subspan(input.set_offsets[k], input.set_offsets[k + 1] - input.set_offsets[k]);
-  };
-  const auto area_of = [&](std::size_t k) {
-    return std::accumulate(input.areas.begin() + input.set_offsets[k], input.areas.begin() + input.set_offsets[k + 1],
-                           0.0);
-  };
-  // The centroid of the surface, whatever the density of its vertices.
-  const auto centroid_of = [&](std::size_t k) {
-    Vec3 moment = Vec3::Zero();
-    for (Index i = input.set_offsets[k]; i < input.set_offsets[k + 1]; ++i)
-      moment += input.areas[i] * (input.points[i] - input.points[input.set_offsets[k]]);
-    return Vec3(input.points[input.set_offsets[k]] + moment / area_of(k));
-  };
-  const PrincipalAxes first = principal_axes(set(0)), last = principal_axes(set(sets - 1));
-  const Polyline polyline{{centroid_of(0), centroid_of(sets - 1)}, false};
-  if (!(polyline.length(0) > 1e-9 * input.box.diagonal())) {
-    shape.summary = {Termination::degenerate, "the centroids of the first and the last working set coincide", 0, 0, 0};
-    return;
-  }
-  double squares = 0;
-  for (const Vec3& point : input.points) squares += nearest(polyline, point).squared;
-  shape.rms = std::sqrt(squares / static_cast<double>(input.points.size()));
-  shape.summary = {Termination::closed_form, "centroids of the working sets", 0, squares / 2, squares / 2};
-  shape.coverage = 1;
-  shape.explained = shape.unexplained = 0;
-  for (std::size_t k = 0; k < sets; ++k) shape.explained += std::sqrt(area_of(k)) / input.mean_edge;
-
-  // A patch of n vertices counts as sqrt(n) samples of its own spread: where it ends is uncertain by whole rows.
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(6, 6);
-  const PrincipalAxes* ends[] = {&first, &last};
-  const std::size_t sizes[] = {set(0).size(), set(sets - 1).size()};
-  for (int end = 0; end < 2; ++end)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Vec3& direction = ends[end]->axes[axis];
-      covariance.block<3, 3>(3 * end, 3 * end) +=
-          ends[end]->variance[axis] / std::sqrt(static_cast<double>(sizes[end])) * direction * direction.transpose();
-    }
-  set_shape(polyline, covariance, input.mean_edge, shape);
-  const Ends measured(input.set_boxes.front(), input.set_boxes.back());
-  shape.measures.push_back({"end_size", measured.size, input.mean_edge});
-  shape.measures.push_back({"end_depth", measured.depth, 0});
-}
-
-Ends::Ends(const Box& first, const Box& last)
-    : size(std::max(first.a(), last.a())), depth(std::min(first.c() / first.a(), last.c() / last.a())) {}
 
 }  // namespace toposcope::line_group

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/run_context.h"
 #include "mesh/mesh.h"
@@ -50,6 +51,39 @@ TEST(TurningCurvature, ChangesSignWithTheSideAndScalesInversely) {
     EXPECT_NEAR(outside.minimum[v], -inside.maximum[v] * 1000, 1e-6);
   }
   EXPECT_NEAR(median(outside.maximum), 2, 0.1);
+}
+
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+// Of a convex body this is half of 4 pi times its mean width (Steiner): 3 pi a for a cube, 4 pi r for a sphere.
+TEST(MeanCurvatureMeasure, OfConvexBodiesIsTheirMeanWidth) {
+  for (const int n : {1, 4}) {
+    const Mesh cube(test::make_box({2, 2, 2}, n), "cube");
+    EXPECT_NEAR(sum(mean_curvature_measure(cube.view())), 3 * pi * 2, 1e-9) << "whatever the triangles";
+  }
+  const Mesh sphere(test::make_sphere(4), "sphere");
+  EXPECT_NEAR(sum(mean_curvature_measure(sphere.view())), 4 * pi, 0.02);
+  const Mesh box(test::transformed(test::make_box({1, 2, 5}), test::random_rotation(3), 10, {1, 2, 3}), "box");
+  EXPECT_NEAR(sum(mean_curvature_measure(box.view())), 10 * (1 + 2 + 5) * pi, 1e-9) << "a length";
+}
+
+TEST(MeanCurvatureMeasure, LiesWhereTheSurfaceBendsAndHasItsSign) {
+  TriangleSoup soup = test::make_box({4, 4, 4}, 4);
+  const Mesh cube(soup, "cube");
+  const std::vector<double> outside = mean_curvature_measure(cube.view());
+  for (Index v = 0; v < cube.view().vertex_count(); ++v) {
+    const int on_faces = static_cast<int>((cube.view().positions[v].cwiseAbs().array() > 2 - 1e-9).count());
+    // Each edge of length 1 has 1 * (pi / 2) / 4 for each of its ends.
+    EXPECT_NEAR(outside[v], on_faces == 1 ? 0 : on_faces == 2 ? 2 * pi / 8 : 3 * pi / 8, 1e-9);
+  }
+  for (Triangle& t : soup.triangles) std::swap(t[1], t[2]);
+  const Mesh room(soup, "room");
+  const std::vector<double> inside = mean_curvature_measure(room.view());
+  for (Index v = 0; v < room.view().vertex_count(); ++v) EXPECT_NEAR(inside[v], -outside[v], 1e-9);
+  const Mesh sheet(test::make_grid(3, 3), "sheet");
+  for (const double x : mean_curvature_measure(sheet.view())) EXPECT_EQ(x, 0) << "a border is no bend";
 }
 
 TEST(SmoothOverRing, KeepsAConstantAndAverages) {

@@ -40,20 +40,19 @@ relationships:
   r2: {features: [bar, pair], type: parallel}
 )";
 
-/// Of a grid of 21 x 21 vertices, one apart: set 0 the first row, set 1 the first two, sets 2 and 3 the rows 8 and 12.
-struct SecondLook : ::testing::Test {
-  SecondLook() : mesh(test::make_grid(20, 20, 20, 20), "grid") {
+/// Rows of a flat grid of 20 x `rows` quads, one apart.
+struct Rows {
+  Rows(const char* text, int rows) : mesh(test::make_grid(20, rows, 20, rows), "grid") {
     const test::TemporaryFolder folder;  // tests run side by side
     const fs::path path = folder / "second_look.yaml";
-    test::write_text(path, three_features);
+    test::write_text(path, text);
     model = read_model(path, &test::host().catalog());
     const fs::path pipeline = fs::path(TOPOSCOPE_SOURCE_DIR) / "pipelines/default.yaml";
     stations = make_stations(test::host(), read_pipeline(pipeline, test::host().catalog()), model);
     sets.type_names = {"convex"};
-    add_rows(0, 0);
-    add_rows(0, 1);
-    add_rows(8, 8);
-    add_rows(12, 12);
+  }
+
+  void first_look() {
     overlap = overlaps(sets, mesh.view().vertex_count());
     features = construct_features(mesh.view(), model, sets, overlap, stations, test::context(2));
   }
@@ -94,6 +93,17 @@ struct SecondLook : ::testing::Test {
   WorkingSets sets;
   BitMatrix overlap;
   ConstructedFeatures features;
+};
+
+/// Set 0 is the first row, set 1 the first two, sets 2 and 3 the rows 8 and 12.
+struct SecondLook : ::testing::Test, Rows {
+  SecondLook() : Rows(three_features, 20) {
+    add_rows(0, 0);
+    add_rows(0, 1);
+    add_rows(8, 8);
+    add_rows(12, 12);
+    first_look();
+  }
 };
 
 TEST_F(SecondLook, AddsTheGroupsThatAFeatureNamesForIt) {
@@ -200,6 +210,46 @@ TEST_F(SecondLook, TwoEdgesThatDoNotMeetMakeOneLineGroup) {
   for (const Index row : {2, 3})
     for (const Index v : sets[row]) EXPECT_LT(fitter->distance(shape, mesh.view().positions[v]), 0.3) << v;
   EXPECT_NEAR(shape.measure("length_2")->value, 4, 0.5);
+}
+
+/// Of groups that were chosen from many, those that were not tried would pass as often as those that were.
+TEST_F(SecondLook, AChoicePaysForTheGroupsThatItWasChosenFrom) {
+  WorkingSetGroups groups(model.features[1], model.features[1].second_look, sets, overlap);
+  ASSERT_EQ(groups.size(), 5u);
+  groups.keep({2, 4});
+  construct_more(mesh.view(), model, sets, 1, groups, 500, overlap, stations, test::context(2), features);
+  const FeatureCandidates& pair = features.of_feature[1];
+  std::size_t pairs = 0;
+  for (std::size_t c = 0; c < pair.constructed.size(); ++c)
+    if (features.all[pair.constructed[c]].sets.size() == 2) {
+      EXPECT_EQ(pair.ways[c], 500) << "both passed: all 500 would";
+      ++pairs;
+    }
+  EXPECT_EQ(pairs, 2u);
+}
+
+constexpr const char* near_each_other = R"(
+schema: toposcope.model/1
+name: neighbours
+features:
+  bar: {worksets: [convex], shape: lgrp1}
+  pair: {worksets: [convex], second_look: [convex, convex], shape: lgrp3}
+relationships:
+  r1: {features: [bar, pair], type: centroid-distance, min: 0, max: bb(O).a/40, tolerance: 3*bb(O).a}
+)";
+
+/// More pairs than are fitted: those that the relationships with what is labelled favour come first, however salient
+/// others are.
+TEST(SecondLookAtMany, FitsThosePairsThatTheRelationshipsFavour) {
+  Rows rows(near_each_other, 39);
+  for (int row = 0; row < 40; ++row) {
+    rows.add_rows(row, row);
+    rows.sets.saliency.back() = 1 + row;
+  }
+  rows.first_look();
+  ASSERT_TRUE(rows.look({rows.candidate(0, {0})}));
+  EXPECT_EQ(rows.features.of_feature[1].count.groups, 40u + 500u) << "of 741 pairs without the bar's row";
+  EXPECT_THAT(rows.groups_of(1), ::testing::Contains(std::vector<Index>{1, 11})) << "not salient, but near the bar";
 }
 
 }  // namespace
