@@ -202,6 +202,7 @@ PictureStyle thumbnail_style(int width, int height) {
   style.samples = 2;
   style.directions = 24;
   style.light_pixels = 64;
+  style.background = Background::transparent;  // pages are light or dark
   return style;
 }
 

@@ -21,6 +21,7 @@ struct ClassOutcome {
   LabelingProblem problem;           ///< interchangeable features told apart by the best labelling
   LabelingOutcome outcome;           ///< the labeler's; its probabilities are those of the pipeline's marginals, if any
   std::string probabilities;         ///< how they were made; empty: there are none
+  Labeling answer;                   ///< what is reported: the labelling of least cost, or in_most_probable_places
 
   /// Before interchangeable features are told apart:
   double log_evidence = 0;                ///< over all labellings; not a number where none is made
@@ -64,7 +65,7 @@ Analysis construct(const Mesh& mesh, const Model& model, const Stations& station
 void label(Analysis& analysis, const Model& model, const Stations& stations, const LabelingRequest& request,
            Context& context);
 
-/// Both.
+/// Both; then the best class's answer has its features in their most probable places.
 Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations, const LabelingRequest& request,
                  Context& context);
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "pipeline/labeling_problem.h"
-#include "pipeline/same_shape.h"
+#include "pipeline/places.h"
 #include "result/result.h"
 #include "toposcope/labeling_tools.h"
 
@@ -20,7 +20,7 @@ class Explainer {
         stations_(stations),
         context_(context),
         posed_(analysis.classes[analysis.best]),
-        best_(posed_.outcome.labelings.front()) {}
+        best_(posed_.answer) {}
 
   RelationReport relation(Index constraint, const Labeling& labeling) const {
     const Index r = posed_.relationships[constraint];
@@ -84,21 +84,9 @@ class Explainer {
     return analysis_.features.all[posed_.problem.variables[variable].candidates[value - 1]];
   }
 
-  /// Posterior of the value, with that of the values whose shape is the same to within a mean edge: nested working
-  /// sets give many such.
   double probability(Index v, Index value) const {
-    const auto& posteriors = posed_.outcome.posteriors;
-    if (posteriors.empty()) return std::numeric_limits<double>::quiet_NaN();
-    if (value == 0) return std::min(1.0, posteriors[v][0]);
-    double sum = 0;
-    for (Index other = 1; other < posed_.problem.variables[v].domain(); ++other)
-      if (other == value || alike(v, value, other)) sum += posteriors[v][other];
-    return std::min(1.0, sum);
-  }
-
-  bool alike(Index v, Index a, Index b) const {
-    const ShapeFitter& fitter = *stations_.shapes.at(model_.features[posed_.features[v]].shape.plugin);
-    return same_shape(fitter, constructed(v, a).shape, constructed(v, b).shape, analysis_.mesh.view().mean_edge);
+    if (posed_.outcome.posteriors.empty()) return std::numeric_limits<double>::quiet_NaN();
+    return probability_of_place(posed_, v, value, model_, analysis_, stations_);
   }
 
   /// Triangles of the input of which at least half (of the filtered pieces) have two vertices in the working sets.
@@ -242,11 +230,12 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
     result.features.push_back(explainer.feature(f));
     result.candidates.emplace_back(model.features[f].name, analysis.features.of_feature[f].count);
   }
-  const Labeling& best = outcome.labelings.front();
+  const Labeling& best = posed.answer;
   for (Index c = 0; c < posed.problem.constraints.size(); ++c) result.relations.push_back(explainer.relation(c, best));
   const auto present = std::count_if(best.values.begin(), best.values.end(), [](Index value) { return value > 0; });
   result.status = present == 0 ? "none" : present == std::ssize(best.values) ? "labelled" : "partial";
-  for (std::size_t k = 1; k < outcome.labelings.size(); ++k) {
+  for (std::size_t k = 0; k < outcome.labelings.size(); ++k) {
+    if (outcome.labelings[k].values == best.values) continue;
     AlternativeReport& alternative = result.alternatives.emplace_back();
     alternative.cost = outcome.labelings[k].cost;
     // Not a number without evidence: `min` keeps its first argument then.

@@ -57,7 +57,7 @@ class SceneMaker {
         for (const Index v : analysis_.sets[s]) region.push_back(analysis_.mesh.view().positions[v]);
       const FittedShape& shape = report.shape;
       scene_.found.push_back({report.name, draw_shape(shape.parameters, region, shape.outline, shape.outline_closed),
-                              posed_.outcome.labelings.front().values[*variable_of(f)]});
+                              posed_.answer.values[*variable_of(f)]});
     }
   }
 
@@ -81,8 +81,9 @@ class SceneMaker {
 
   bool named(Index feature, Index rank) const {
     const std::optional<Index> v = variable_of(feature);
-    return v && std::any_of(posed_.outcome.labelings.begin(), posed_.outcome.labelings.end(),
-                            [&](const Labeling& labeling) { return labeling.values[*v] == rank; });
+    return v && (posed_.answer.values[*v] == rank ||
+                 std::any_of(posed_.outcome.labelings.begin(), posed_.outcome.labelings.end(),
+                             [&](const Labeling& labeling) { return labeling.values[*v] == rank; }));
   }
 
   void add_candidate(Index feature, Index rank, const Offers& offers) {

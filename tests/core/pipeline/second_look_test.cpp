@@ -13,19 +13,13 @@
 #include <limits>
 #include <set>
 
-#include "mesh/mesh.h"
-#include "model/read_model.h"
+#include "core/pipeline/rows_of_a_grid.h"
 #include "pipeline/labeling_problem.h"
-#include "pipeline/pipeline_manifest.h"
 #include "probability/likelihood.h"
-#include "support/meshes.h"
-#include "support/plugins.h"
-#include "support/program.h"
 
 namespace toposcope {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 
 constexpr const char* three_features = R"(
@@ -40,63 +34,8 @@ relationships:
   r2: {features: [bar, pair], type: parallel}
 )";
 
-/// Rows of a flat grid of 20 x `rows` quads, one apart.
-struct Rows {
-  Rows(const char* text, int rows) : mesh(test::make_grid(20, rows, 20, rows), "grid") {
-    const test::TemporaryFolder folder;  // tests run side by side
-    const fs::path path = folder / "second_look.yaml";
-    test::write_text(path, text);
-    model = read_model(path, &test::host().catalog());
-    const fs::path pipeline = fs::path(TOPOSCOPE_SOURCE_DIR) / "pipelines/default.yaml";
-    stations = make_stations(test::host(), read_pipeline(pipeline, test::host().catalog()), model);
-    sets.type_names = {"convex"};
-  }
-
-  void first_look() {
-    overlap = overlaps(sets, mesh.view().vertex_count());
-    features = construct_features(mesh.view(), model, sets, overlap, stations, test::context(2));
-  }
-
-  void add_rows(double first, double last) {
-    const double low = mesh.view().positions.front().y();
-    for (Index v = 0; v < mesh.view().vertex_count(); ++v) {
-      const double row = mesh.view().positions[v].y() - low;
-      if (row > first - 0.5 && row < last + 0.5) sets.vertices.push_back(v);
-    }
-    sets.types.push_back(0);
-    sets.saliency.push_back(1);
-    sets.offsets.push_back(static_cast<Index>(sets.vertices.size()));
-  }
-
-  std::set<std::vector<Index>> groups_of(Index feature) const {
-    std::set<std::vector<Index>> groups;
-    for (Index c : features.of_feature[feature].constructed) groups.insert(features.all[c].sets);
-    return groups;
-  }
-
-  /// The candidate of a feature that is made of these sets.
-  Index candidate(Index feature, const std::vector<Index>& of_sets) const {
-    for (Index c : features.of_feature[feature].constructed)
-      if (features.all[c].sets == of_sets) return c;
-    ADD_FAILURE() << "no such candidate";
-    return 0;
-  }
-
-  bool look(std::vector<std::optional<Index>> labelled) {
-    labelled.resize(model.features.size());
-    return look_again(mesh.view(), model, sets, overlap, labelled, stations, test::context(2), features);
-  }
-
-  Mesh mesh;
-  Model model;
-  Stations stations;
-  WorkingSets sets;
-  BitMatrix overlap;
-  ConstructedFeatures features;
-};
-
 /// Set 0 is the first row, set 1 the first two, sets 2 and 3 the rows 8 and 12.
-struct SecondLook : ::testing::Test, Rows {
+struct SecondLook : ::testing::Test, test::Rows {
   SecondLook() : Rows(three_features, 20) {
     add_rows(0, 0);
     add_rows(0, 1);
@@ -241,7 +180,7 @@ relationships:
 /// More pairs than are fitted: those that the relationships with what is labelled favour come first, however salient
 /// others are.
 TEST(SecondLookAtMany, FitsThosePairsThatTheRelationshipsFavour) {
-  Rows rows(near_each_other, 39);
+  test::Rows rows(near_each_other, 39);
   for (int row = 0; row < 40; ++row) {
     rows.add_rows(row, row);
     rows.sets.saliency.back() = 1 + row;

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "mesh/mesh.h"
+#include "model/read_model.h"
+#include "pipeline/pipeline_manifest.h"
+#include "pipeline/second_look.h"
+#include "support/meshes.h"
+#include "support/plugins.h"
+#include "support/program.h"
+
+namespace toposcope::test {
+
+/// Rows of a flat grid of 20 x `rows` quads, one apart.
+struct Rows {
+  Rows(const char* text, int rows) : mesh(make_grid(20, rows, 20, rows), "grid") {
+    const TemporaryFolder folder;  // tests run side by side
+    const std::filesystem::path path = folder / "second_look.yaml";
+    write_text(path, text);
+    model = read_model(path, &host().catalog());
+    const std::filesystem::path pipeline = std::filesystem::path(TOPOSCOPE_SOURCE_DIR) / "pipelines/default.yaml";
+    stations = make_stations(host(), read_pipeline(pipeline, host().catalog()), model);
+    sets.type_names = {"convex"};
+  }
+
+  void first_look() {
+    overlap = overlaps(sets, mesh.view().vertex_count());
+    features = construct_features(mesh.view(), model, sets, overlap, stations, context(2));
+  }
+
+  void add_rows(double first, double last) {
+    const double low = mesh.view().positions.front().y();
+    for (Index v = 0; v < mesh.view().vertex_count(); ++v) {
+      const double row = mesh.view().positions[v].y() - low;
+      if (row > first - 0.5 && row < last + 0.5) sets.vertices.push_back(v);
+    }
+    sets.types.push_back(0);
+    sets.saliency.push_back(1);
+    sets.offsets.push_back(static_cast<Index>(sets.vertices.size()));
+  }
+
+  std::set<std::vector<Index>> groups_of(Index feature) const {
+    std::set<std::vector<Index>> groups;
+    for (Index c : features.of_feature[feature].constructed) groups.insert(features.all[c].sets);
+    return groups;
+  }
+
+  /// The candidate of a feature that is made of these sets.
+  Index candidate(Index feature, const std::vector<Index>& of_sets) const {
+    for (Index c : features.of_feature[feature].constructed)
+      if (features.all[c].sets == of_sets) return c;
+    ADD_FAILURE() << "no such candidate";
+    return 0;
+  }
+
+  bool look(std::vector<std::optional<Index>> labelled) {
+    labelled.resize(model.features.size());
+    return look_again(mesh.view(), model, sets, overlap, labelled, stations, context(2), features);
+  }
+
+  Mesh mesh;
+  Model model;
+  Stations stations;
+  WorkingSets sets;
+  BitMatrix overlap;
+  ConstructedFeatures features;
+};
+
+}  // namespace toposcope::test
