@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "find_half_edge.h"
 #include "toposcope/geometry.h"
-#include "toposcope/half_edges.h"
 
 namespace toposcope {
 namespace {
@@ -120,24 +120,17 @@ std::vector<double> mean_curvature_measure(const MeshView& mesh) {
         (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]).stableNormalized();
   }
   std::vector<double> measure(mesh.vertex_count(), 0);
-  const auto across = [&](Index a, Index b) {  // the one face that runs from a to b
-    Index found = no_index;
-    int count = 0;
-    for (Index f : mesh.faces_of(a))
-      for (Index k = 0; k < 3; ++k)
-        if (mesh.triangles[f][k] == a && mesh.triangles[f][(k + 1) % 3] == b) found = f, ++count;
-    return count == 1 ? found : no_index;
-  };
   for (Index a = 0; a < mesh.vertex_count(); ++a)
     for (Index b : mesh.one_ring(a)) {
       if (b < a) continue;
-      const Index left = across(a, b), right = across(b, a);
-      if (left == no_index || right == no_index) continue;
+      const auto there = geometry::find_half_edge(mesh, a, b), back = geometry::find_half_edge(mesh, b, a);
+      if (there.count != 1 || back.count != 1) continue;
+      const Vec3 &left = normals[there.half_edge / 3], &right = normals[back.half_edge / 3];
       const Vec3 along = mesh.positions[b] - mesh.positions[a];
       const double length = along.norm();
       if (!(length > 0)) continue;
-      const double sine = normals[left].cross(normals[right]).dot(along) / length;
-      const double share = length * std::atan2(sine, normals[left].dot(normals[right])) / 4;
+      const double sine = left.cross(right).dot(along) / length;
+      const double share = length * std::atan2(sine, left.dot(right)) / 4;
       measure[a] += share;
       measure[b] += share;
     }

@@ -3,6 +3,8 @@
 
 #include <stdexcept>
 
+#include "find_half_edge.h"
+
 namespace toposcope {
 namespace {
 
@@ -12,19 +14,6 @@ namespace {
 
 std::string edge_text(Index a, Index b) {
   return "the edge between vertices " + std::to_string(a) + " and " + std::to_string(b) + " (from 0)";
-}
-
-// The half-edge from a to b, no_index if there is no_index; and how many there are.
-struct Found {
-  Index half_edge = no_index;
-  int count = 0;
-};
-Found find(const MeshView& mesh, Index a, Index b) {
-  Found found;
-  for (Index f : mesh.faces_of(a))
-    for (Index k = 0; k < 3; ++k)
-      if (mesh.triangles[f][k] == a && mesh.triangles[f][(k + 1) % 3] == b) found = {3 * f + k, found.count + 1};
-  return found;
 }
 
 // Turning about a vertex from one of its faces must reach them all.
@@ -53,7 +42,8 @@ std::vector<Index> opposite_half_edges(const MeshView& mesh) {
   for (Index f = 0; f < mesh.face_count(); ++f)
     for (Index k = 0; k < 3; ++k) {
       const Index a = mesh.triangles[f][k], b = mesh.triangles[f][(k + 1) % 3];
-      const Found same = find(mesh, a, b), other = find(mesh, b, a);
+      const geometry::FoundHalfEdge same = geometry::find_half_edge(mesh, a, b),
+                                    other = geometry::find_half_edge(mesh, b, a);
       if (same.count + other.count > 2) refuse(edge_text(a, b) + " has more than two faces");
       if (same.count > 1) refuse(edge_text(a, b) + " has two faces of opposite orientation");
       opposite[3 * f + k] = other.half_edge;

@@ -10,8 +10,6 @@ namespace toposcope {
 
 namespace {
 
-constexpr double least_part = 1 - 1e-9;  // of a squared distance: rounding must not pass over what is nearest
-
 double cross(const Vec2& u, const Vec2& v) {
   return u.x() * v.y() - u.y() * v.x();
 }
@@ -25,7 +23,7 @@ void PlanePath::add_line(const Vec2& from, const Vec2& to, double shortest) {
   const Vec2 step = to - from;
   if (step.norm() <= shortest) return;
   const Vec2 normal = right_of(step.normalized());
-  elements_.push_back({from, to, normal, normal, from, 0, 0, (from + to) / 2, (to - from).cwiseAbs() / 2});
+  elements_.push_back({from, to, normal, normal, from, 0, 0});
 }
 
 PlanePath::PlanePath(const std::vector<Corner>& corners) {
@@ -56,8 +54,6 @@ PlanePath::PlanePath(const std::vector<Corner>& corners) {
       arc.turn = angle > 0 ? 1 : -1;
       arc.radius = radius;
       arc.center = arc.from - arc.turn * radius * right_of(along);
-      arc.middle = arc.center;
-      arc.half.setConstant(radius);
       arc.normal_from = right_of(along);
       arc.normal_to = right_of(next);
       begins_[i] = arc.from;
@@ -93,8 +89,6 @@ PlanePath::Closest PlanePath::closest(const Vec2& query) const {
   std::size_t joint_offered = 0;  // the last one: neighbours share it
   for (std::size_t i = 0; i < elements_.size(); ++i) {
     const Element& element = elements_[i];
-    const Vec2 beyond = ((query - element.middle).cwiseAbs() - element.half).cwiseMax(0.0);
-    if (least_part * beyond.squaredNorm() >= best_distance) continue;
     if (element.turn == 0) {
       const Vec2 step = element.to - element.from;
       const double t = step.dot(query - element.from) / step.squaredNorm();

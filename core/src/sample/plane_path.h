@@ -41,7 +41,6 @@ class PlanePath {
     Vec2 center = Vec2::Zero();
     double radius = 0;
     double turn = 0;  ///< 0 a line, +1 an arc that turns left (convex material), -1 one that turns right
-    Vec2 middle = Vec2::Zero(), half = Vec2::Zero();  ///< of a box around it
   };
   /// Between two elements, or an end of the path.
   struct Joint {

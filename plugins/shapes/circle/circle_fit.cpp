@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace toposcope::circle {
 namespace {
@@ -72,16 +71,7 @@ class RobustResiduals {
       height = g * (height - e.height * fall);
       radial[6] = g * e.radial;
       height[6] = g * e.height;
-      // The lower triangle is all that LDLT reads; columns begin at a whole vector register.
-      const auto add = [&]<int k>(std::integral_constant<int, k>) {
-        constexpr int rows = 8 - k / 2 * 2;
-        sums.col(k).template tail<rows>() +=
-            radial[k] * radial.template tail<rows>() + height[k] * height.template tail<rows>();
-      };
-      [&]<int... k>(std::integer_sequence<int, k...>) {
-        (add(std::integral_constant<int, k>()), ...);
-      }
-      (std::make_integer_sequence<int, NUM_RESIDUALS>());
+      for (int k = 0; k < NUM_RESIDUALS; ++k) sums.col(k) += radial[k] * radial + height[k] * height;
     }
     using Square = Eigen::Matrix<double, NUM_RESIDUALS, NUM_RESIDUALS>;
     const Eigen::LDLT<Square> factors(sums.topLeftCorner<NUM_RESIDUALS, NUM_RESIDUALS>());

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "base/errors.h"
+#include "base/run_context.h"
 
 namespace toposcope {
 namespace {
@@ -14,8 +15,10 @@ ParameterValues parameters(const std::map<std::string, double>& given) {
   return check_parameters(cup_kind(), given);
 }
 
-const SampleFeature& feature(const Solid& solid, const std::string& name) {
-  for (const SampleFeature& f : solid.features)
+/// \param made  a solid or a sample
+template <class Made>
+const SampleFeature& feature(const Made& made, const std::string& name) {
+  for (const SampleFeature& f : made.features)
     if (f.name == name) return f;
   throw std::out_of_range(name);
 }
@@ -77,6 +80,26 @@ TEST(Cup, EveryHandleShapeHasAHoleAndMeetsTheWallTwice) {
       for (const Index i : group.members)
         EXPECT_NEAR(handle.points[i].z(), group.name == "upper" ? 77 : 23, 5 + 4 + 1.5);
     for (const Vec3& p : handle.points) EXPECT_NEAR(solid.surface(p).value, 0, 1e-9);
+  }
+}
+
+TEST(Cup, CentroidsOfTheHandlesRingsDoNotHangOnTheMesh) {
+  RunContext context({.threads = 2});
+  const Sample coarse = make_sample({.kind = "cup", .faces = 2000}, context);
+  const Sample fine = make_sample({.kind = "cup", .faces = 30000}, context);
+  const SampleFeature &few = feature(coarse, "handleCon"), &many = feature(fine, "handleCon");
+  EXPECT_LT(few.points.size(), many.points.size()) << "marks whose vertex is taken are dropped";
+  for (std::size_t g = 0; g < 2; ++g) EXPECT_EQ(few.groups[g].centroid, many.groups[g].centroid);
+  // The ring is a line: its centroid is the mean along it, not that of points that lie closer on one side.
+  for (const MarkGroup& group : many.groups) {
+    Vec3 moment = Vec3::Zero();
+    double length = 0;
+    for (std::size_t i = 0; i < group.members.size(); ++i) {
+      const Vec3 &a = many.points[group.members[i]], &b = many.points[group.members[(i + 1) % group.members.size()]];
+      moment += (b - a).norm() * (a + b) / 2;
+      length += (b - a).norm();
+    }
+    EXPECT_LT((moment / length - group.centroid).norm(), 0.1);
   }
 }
 

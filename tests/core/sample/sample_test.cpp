@@ -230,24 +230,6 @@ TEST(Sample, HandleEndsLieOnTheWallAndTheirRingsAroundThem) {
   }
 }
 
-TEST(Sample, CentroidsOfTheHandlesRingsDoNotHangOnTheMesh) {
-  const Sample coarse = make({.kind = "cup", .faces = 2000}), fine = make({.kind = "cup", .faces = 30000});
-  const SampleFeature &few = feature(coarse, "handleCon"), &many = feature(fine, "handleCon");
-  EXPECT_LT(few.points.size(), many.points.size()) << "marks whose vertex is taken are dropped";
-  for (std::size_t g = 0; g < 2; ++g) EXPECT_EQ(few.groups[g].centroid, many.groups[g].centroid);
-  // The ring is a line: its centroid is the mean along it, not that of points that lie closer on one side.
-  for (const MarkGroup& group : many.groups) {
-    Vec3 moment = Vec3::Zero();
-    double length = 0;
-    for (std::size_t i = 0; i < group.members.size(); ++i) {
-      const Vec3 &a = many.points[group.members[i]], &b = many.points[group.members[(i + 1) % group.members.size()]];
-      moment += (b - a).norm() * (a + b) / 2;
-      length += (b - a).norm();
-    }
-    EXPECT_LT((moment / length - group.centroid).norm(), 0.1);
-  }
-}
-
 TEST(Sample, HandleAndItsFilletStayOutOfTheCavity) {
   // Wall thinner than the fillet's radius: a fillet between handle and inner wall would bulge inwards.
   const Sample sample = make({.kind = "cup", .parameters = {{"wall", 3}, {"lip_radius", 1.5}}, .faces = 5000});

@@ -185,6 +185,16 @@ TEST(Scan, SeenFromOneSideIsOpenAndTellsOnlyWhatIsThere) {
   EXPECT_FALSE(kept.empty());
 }
 
+TEST(Scan, WithoutPartsTheRestIsTheSame) {
+  const Sample with = scanned({.kind = "cup"}, {.faces = 2000, .seed = 3});
+  const Sample without = scanned({.kind = "cup"}, {.faces = 2000, .seed = 3, .parts = false});
+  EXPECT_FALSE(with.part_names.empty());
+  EXPECT_TRUE(without.part_names.empty());
+  EXPECT_EQ(with.mesh.positions, without.mesh.positions);
+  EXPECT_EQ(with.mesh.triangles, without.mesh.triangles);
+  for (std::size_t f = 0; f < with.features.size(); ++f) EXPECT_EQ(with.features[f].points, without.features[f].points);
+}
+
 TEST(Scan, ErrorsNameValueAndRemedy) {
   RunContext context({.threads = 2});
   const Sample target = make_scan_target({.kind = "tee"}, context);
