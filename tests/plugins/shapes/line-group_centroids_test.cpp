@@ -102,7 +102,7 @@ TEST(LineGroup, UncertaintyOfCentroidsOfWhatBendsCoversTheirErrors) {
     across.add(endpoints(f)[0].x(), std::sqrt(f.covariance[0]));
   }
   EXPECT_LT(across.variance(), 1) << "the sets' ends are not all that is uncertain";
-  EXPECT_GT(across.variance(), 0.02);
+  EXPECT_GT(across.variance(), 0.06) << "no more than four times too wide";
 }
 
 }  // namespace
