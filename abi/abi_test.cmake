@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# The plugin boundary is as the record of its ABI version says (docs/abi.md); and what an older minor of the same major had
+# The plugin boundary is as the record of its ABI version says (docs/guide/abi.md); and what an older minor of the same major had
 # is still there, where it was. Run with -DRECORD=<program> -DSOURCE=<tree> -P; with -DWRITE=ON a missing record is written.
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${RECORD} OUTPUT_VARIABLE now COMMAND_ERROR_IS_FATAL ANY)
@@ -30,7 +30,7 @@ if(NOT recorded STREQUAL now)
     endif()
   endforeach()
   message(FATAL_ERROR "the plugin boundary is not that of ABI ${major}.${minor} any more:${changes}\n"
-    "Raise abi_minor in toposcope/plugin.h where plugins built before still work (docs/abi.md), else abi_major, and let "
+    "Raise abi_minor in toposcope/plugin.h where plugins built before still work (docs/guide/abi.md), else abi_major, and let "
     "`make abi` record the new version. A record is never changed.")
 endif()
 # Sizes of what grows at its end may differ; members, values and slots stay.

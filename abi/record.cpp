@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints the layout of everything that crosses the plugin boundary, a line each: sizes, members with offset and size,
-// values of enumerations, slots of virtual functions. The recorded ABIs lie beside this file (docs/abi.md).
+// values of enumerations, slots of virtual functions. The recorded ABIs lie beside this file (docs/guide/abi.md).
 
 #include <dlfcn.h>
 #include <link.h>

@@ -26,7 +26,7 @@
 #include "picture.h"
 #include "pipeline/working_sets.h"
 #include "plugin/plugin_host.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
 
 namespace {
 

@@ -14,7 +14,7 @@
 
 #include "base/run_context.h"
 #include "support/analytic_surfaces.h"
-#include "toposcope/curvature.h"
+#include "toposcope/geometry/curvature.h"
 
 namespace {
 

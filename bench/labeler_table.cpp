@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// least-error beside toulbar2 on problems shaped like those of meshes: the table of docs/labelers.md.
+// least-error beside toulbar2 on problems shaped like those of meshes: the table of docs/theory/labelers.md.
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include <optional>
 #include <regex>
 
-#include "problem/problem_io.h"
+#include "problem_io.h"
 #include "support/planted_problems.h"
 #include "support/plugins.h"
 

@@ -15,7 +15,7 @@
 #include "base/run_context.h"
 #include "io/mesh_io.h"
 #include "plugin/plugin_host.h"
-#include "toposcope/closest_face.h"
+#include "toposcope/geometry/closest_face.h"
 
 namespace {
 

@@ -19,7 +19,7 @@
 #include "plugin/plugin_host.h"
 #include "sample/sample.h"
 #include "support/analytic_surfaces.h"
-#include "toposcope/curvature.h"
+#include "toposcope/geometry/curvature.h"
 
 namespace {
 

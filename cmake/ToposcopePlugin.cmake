@@ -36,7 +36,7 @@ function(toposcope_add_plugin kind id)
 endfunction()
 
 # toposcope_add_plugin_test(KIND ID)
-# For a plugin of toposcope_add_plugin: builds <ID>_test.cpp (toposcope/plugin_test.h) and adds two tests, <ID>, which
+# For a plugin of toposcope_add_plugin: builds <ID>_test.cpp (toposcope/testing/plugin_test.h) and adds two tests, <ID>, which
 # runs it with the plugin's library as its argument, and <ID>_check, which runs `toposcope plugins check` on the library.
 function(toposcope_add_plugin_test kind id)
   set(plugin plugin_${kind}_${id})

@@ -17,8 +17,8 @@
 #include <optional>
 
 #include "base/errors.h"
-#include "conformance/examination.h"
-#include "toposcope/programs.h"
+#include "examination.h"
+#include "toposcope/system/programs.h"
 
 extern "C" char** environ;  // NOLINT(readability-redundant-declaration)
 

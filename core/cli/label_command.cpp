@@ -10,9 +10,9 @@
 #include "commands.h"
 #include "pipeline/labeling_problem.h"
 #include "plugin/guard.h"
-#include "problem/problem_io.h"
+#include "problem_io.h"
 #include "session.h"
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope::cli {
 namespace {

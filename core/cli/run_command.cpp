@@ -9,7 +9,7 @@
 #include "lock/run_lock.h"
 #include "model/read_model.h"
 #include "output_folder.h"
-#include "problem/problem_io.h"
+#include "problem_io.h"
 #include "report_files.h"
 #include "resources.h"
 #include "result/result.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/closest_face.h"
+#include "toposcope/geometry/closest_face.h"
 
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
 
 namespace toposcope {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope::geometry {
 namespace {

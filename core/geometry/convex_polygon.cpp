@@ -5,7 +5,8 @@
 #include <numeric>
 
 #include "convex_hull.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope::geometry {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/curvature.h"
+#include "toposcope/geometry/curvature.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "find_half_edge.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "toposcope/half_edges.h"
+#include "toposcope/geometry/half_edges.h"
 
 namespace toposcope::geometry {
 

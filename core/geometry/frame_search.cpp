@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "convex_hull.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
 
 namespace toposcope::geometry {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/half_edges.h"
+#include "toposcope/geometry/half_edges.h"
 
 #include <stdexcept>
 

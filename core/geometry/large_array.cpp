@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/large_array.h"
+#include "toposcope/geometry/large_array.h"
 
 #include <cstdint>
 

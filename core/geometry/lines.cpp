@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "toposcope/geometry/lines.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-
-#include "toposcope/geometry.h"
 
 namespace toposcope {
 

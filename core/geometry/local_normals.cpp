@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "point_tree.h"
 #include "revolution.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope::revolution {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "neighbourhood.h"
-#include "toposcope/curvature.h"
+#include "toposcope/geometry/curvature.h"
 
 namespace toposcope {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "point_tree.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "toposcope/large_array.h"
+#include "toposcope/geometry/large_array.h"
 #include "toposcope/mesh_view.h"
 
 namespace toposcope {

@@ -6,8 +6,8 @@
 #include "blocked_points.h"
 #include "convex_hull.h"
 #include "frame_search.h"
-#include "toposcope/geometry.h"
-#include "toposcope/large_array.h"
+#include "toposcope/geometry/large_array.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "convex_hull.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/representatives.h"
+#include "toposcope/geometry/representatives.h"
 
 #include <algorithm>
 #include <utility>

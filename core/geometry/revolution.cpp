@@ -9,6 +9,9 @@
 #include <cmath>
 #include <limits>
 
+#include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/turn_coverage.h"
+
 namespace toposcope {
 namespace {
 

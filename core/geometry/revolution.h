@@ -3,8 +3,8 @@
 
 // Inner parts of the fit of surfaces of revolution.
 
-#include "toposcope/geometry.h"
-#include "toposcope/revolution.h"
+#include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/revolution.h"
 
 namespace toposcope::revolution {
 

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "revolution.h"
-#include "toposcope/representatives.h"
+#include "toposcope/geometry/representatives.h"
 
 namespace toposcope::revolution {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "neighbourhood.h"
-#include "toposcope/curvature.h"
-#include "toposcope/large_array.h"
+#include "toposcope/geometry/curvature.h"
+#include "toposcope/geometry/large_array.h"
 
 namespace toposcope {
 namespace {

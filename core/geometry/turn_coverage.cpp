@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "toposcope/geometry/turn_coverage.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "toposcope/geometry.h"
+#include "toposcope/types.h"
 
 namespace toposcope {
 namespace {

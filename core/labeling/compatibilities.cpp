@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "toposcope/relaxation_labeling.h"
+#include "toposcope/labeling/relaxation_labeling.h"
 
 namespace toposcope {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/conditional_costs.h"
+#include "toposcope/labeling/conditional_costs.h"
 
 #include <algorithm>
 #include <cmath>

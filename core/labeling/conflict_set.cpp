@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/conflict_set.h"
+#include "toposcope/labeling/conflict_set.h"
 
 #include <algorithm>
 
 #include "hitting_set.h"
-#include "toposcope/crisp_search.h"
+#include "toposcope/labeling/crisp_search.h"
 
 namespace toposcope {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "toposcope/conditional_costs.h"
+#include "toposcope/labeling/conditional_costs.h"
 
 namespace toposcope {
 

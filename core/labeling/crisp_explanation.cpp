@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which decisions struck a value: the trail is read backwards, from each strike to the strikes that it followed from.
 
-#include "toposcope/crisp_propagation.h"
+#include "toposcope/labeling/crisp_propagation.h"
 
 namespace toposcope {
 

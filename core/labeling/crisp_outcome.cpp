@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/crisp_outcome.h"
+#include "toposcope/labeling/crisp_outcome.h"
 
 #include <algorithm>
 

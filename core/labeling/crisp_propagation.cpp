@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/crisp_propagation.h"
+#include "toposcope/labeling/crisp_propagation.h"
 
 #include <algorithm>
 #include <bit>

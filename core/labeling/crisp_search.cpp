@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/crisp_search.h"
+#include "toposcope/labeling/crisp_search.h"
 
 #include <algorithm>
 #include <numeric>
 
-#include "toposcope/crisp_outcome.h"
+#include "toposcope/labeling/crisp_outcome.h"
 
 namespace toposcope {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/greedy_labeling.h"
+#include "toposcope/labeling/greedy_labeling.h"
 
 #include <algorithm>
 #include <tuple>

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope {
 

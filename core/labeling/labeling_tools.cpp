@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/labeling_tools.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <tuple>
+
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/relaxation_labeling.h"
+#include "toposcope/labeling/relaxation_labeling.h"
 
 #include <algorithm>
 #include <cmath>

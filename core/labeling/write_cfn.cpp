@@ -6,8 +6,8 @@
 #include <set>
 
 #include "cost_functions.h"
-#include "toposcope/labeling_tools.h"
-#include "toposcope/problem_writer.h"
+#include "toposcope/labeling/problem_writer.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cost_functions.h"
-#include "toposcope/labeling_tools.h"
-#include "toposcope/problem_writer.h"
+#include "toposcope/labeling/problem_writer.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope {
 namespace {

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "plane_ellipse.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/point_sets.h"
 #include "toposcope/plugin.h"
 
 namespace {

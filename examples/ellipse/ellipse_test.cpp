@@ -4,7 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "toposcope/plugin_test.h"
+#include "toposcope/geometry/lines.h"
+#include "toposcope/testing/plugin_test.h"
 
 namespace {
 

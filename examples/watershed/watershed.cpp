@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "flooding.h"
-#include "toposcope/curvature.h"
+#include "toposcope/geometry/curvature.h"
 #include "toposcope/plugin.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "../solids.h"
-#include "toposcope/plugin_test.h"
+#include "toposcope/testing/plugin_test.h"
 
 namespace {
 

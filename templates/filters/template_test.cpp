@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Run with the plugin's library as its argument.
-#include "toposcope/plugin_test.h"
+#include "toposcope/testing/plugin_test.h"
 
 int main(int, char** argv) {
   using namespace toposcope;

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "toposcope/greedy_labeling.h"
+#include "toposcope/labeling/greedy_labeling.h"
 #include "toposcope/plugin.h"
 
 namespace {

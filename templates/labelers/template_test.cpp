@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Run with the plugin's library as its argument.
-#include "toposcope/labeling_tools.h"
-#include "toposcope/plugin_test.h"
+#include "toposcope/labeling/tools.h"
+#include "toposcope/testing/plugin_test.h"
 
 int main(int, char** argv) {
   using namespace toposcope;

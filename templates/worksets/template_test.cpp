@@ -2,7 +2,7 @@
 // Run with the plugin's library as its argument.
 #include <algorithm>
 
-#include "toposcope/plugin_test.h"
+#include "toposcope/testing/plugin_test.h"
 
 int main(int, char** argv) {
   using namespace toposcope;

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/tools.h"
 #include "toposcope/plugin.h"
 
 namespace sound {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# docs/plugins.md keeps its word: its example, copied from the page, builds against the installed SDK and passes the
+# docs/guide/plugins.md keeps its word: its example, copied from the page, builds against the installed SDK and passes the
 # conformance kit.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(here ${folder}/page)
@@ -7,7 +7,7 @@ file(REMOVE_RECURSE ${here})
 
 # The first fenced block of a language.
 function(copy_block language file)
-  file(READ ${SOURCE}/docs/plugins.md page)
+  file(READ ${SOURCE}/docs/guide/plugins.md page)
   set(fence "```${language}\n")
   string(FIND "${page}" "${fence}" first)
   string(LENGTH "${fence}" length)

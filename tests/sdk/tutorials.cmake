@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# docs/tutorials keep their word: the shell blocks of a page, typed one after the other, work; a yaml block is the file that
+# docs/guide/tutorials keep their word: the shell blocks of a page, typed one after the other, work; a yaml block is the file that
 # its first line names. Run with -DPAGE=<name>.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(here ${folder}/tutorials/${PAGE})
 file(REMOVE_RECURSE ${here})
 file(MAKE_DIRECTORY ${here})
-file(READ ${SOURCE}/docs/tutorials/${PAGE}.md page)
+file(READ ${SOURCE}/docs/guide/tutorials/${PAGE}.md page)
 set(script "set -eu\nexport PATH=${prefix}/bin:$PATH CXXFLAGS='${FLAGS}'\ncd ${here}\n")
 set(blocks 0)
 while(page MATCHES "\n```(sh|yaml)\n")

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "support/random.h"
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope::test {
 LabelingConstraint empty_constraint(const LabelingProblem& problem, std::vector<Index> scope) {

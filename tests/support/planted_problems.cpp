@@ -8,7 +8,7 @@
 
 #include "support/labeling_problems.h"
 #include "support/random.h"
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope::test {
 namespace {
@@ -24,7 +24,7 @@ double distance(const Place& a, const Place& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-// Minus the log likelihood ratio of a normal residual against clutter (docs/probabilities.md).
+// Minus the log likelihood ratio of a normal residual against clutter (docs/theory/probabilities.md).
 double relation_cost(double residual) {
   const double z = residual / tolerance;
   return -std::log(exception + (1 - exception) * std::exp(-z * z / 2) / (tolerance * std::sqrt(2 * pi)) / clutter);

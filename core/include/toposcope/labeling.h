@@ -43,7 +43,7 @@ struct LabelingConstraint {
 };
 
 /// Variables, domains, constraints and exclusions; knows nothing of meshes (dissertation 3.4.2, "consistent
-/// labeling problem"). `toposcope/labeling_tools.h` has what labelers ask of it.
+/// labeling problem"). `toposcope/labeling/tools.h` has what labelers ask of it.
 struct LabelingProblem {
   std::string name;
   std::vector<LabelingVariable> variables;

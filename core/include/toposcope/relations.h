@@ -26,7 +26,7 @@ struct RelationInput {
 };
 
 /// How far a relation is from holding, in its natural unit (rad or mesh unit; the descriptor says which), and
-/// what the kernel needs to weigh it (docs/probabilities.md).
+/// what the kernel needs to weigh it (docs/theory/probabilities.md).
 struct RelationResult {
   bool applicable = true;  ///< false: these shapes cannot stand in this relation; `why` says so
   std::string why;

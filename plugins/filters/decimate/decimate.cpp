@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "toposcope/closest_face.h"
+#include "toposcope/geometry/closest_face.h"
 #include "toposcope/plugin.h"
 
 namespace {

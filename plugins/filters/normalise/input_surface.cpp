@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
 
 namespace toposcope::normalise {
 namespace {

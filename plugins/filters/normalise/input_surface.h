@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "surface_mesh.h"
-#include "toposcope/closest_face.h"
+#include "toposcope/geometry/closest_face.h"
 
 namespace toposcope::normalise {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "toposcope/closest_face.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/closest_face.h"
+#include "toposcope/geometry/lines.h"
 
 namespace toposcope::normalise {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "toposcope/half_edges.h"
+#include "toposcope/geometry/half_edges.h"
 
 namespace toposcope::normalise {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "toposcope/half_edges.h"
+#include "toposcope/geometry/half_edges.h"
 
 namespace toposcope::normalise {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "run.h"
-#include "toposcope/greedy_labeling.h"
+#include "toposcope/labeling/greedy_labeling.h"
 #include "toposcope/plugin.h"
 
 namespace {

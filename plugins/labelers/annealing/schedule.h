@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "toposcope/conditional_costs.h"
+#include "toposcope/labeling/conditional_costs.h"
 
 namespace toposcope::annealing {
 

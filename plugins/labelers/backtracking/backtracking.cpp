@@ -2,8 +2,8 @@
 // Backtracking tree search for labellings that meet all constraints (dissertation 3.4.2, category 1).
 
 #include "ranking.h"
-#include "toposcope/conflict_set.h"
-#include "toposcope/crisp_outcome.h"
+#include "toposcope/labeling/conflict_set.h"
+#include "toposcope/labeling/crisp_outcome.h"
 #include "toposcope/plugin.h"
 
 namespace {

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "toposcope/crisp_search.h"
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/crisp_search.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope::backtracking {
 

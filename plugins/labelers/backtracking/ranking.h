@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "objective.h"
-#include "toposcope/crisp_search.h"
+#include "toposcope/labeling/crisp_search.h"
 
 namespace toposcope::backtracking {
 

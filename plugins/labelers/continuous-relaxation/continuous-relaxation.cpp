@@ -8,9 +8,9 @@
 #include <numeric>
 #include <string>
 
-#include "toposcope/greedy_labeling.h"
+#include "toposcope/labeling/greedy_labeling.h"
+#include "toposcope/labeling/relaxation_labeling.h"
 #include "toposcope/plugin.h"
-#include "toposcope/relaxation_labeling.h"
 
 namespace {
 

@@ -2,9 +2,9 @@
 // Discrete relaxation: strikes from each domain what cannot stand with anything left in another (dissertation 3.4.2).
 
 #include "reasons.h"
-#include "toposcope/conflict_set.h"
-#include "toposcope/crisp_outcome.h"
-#include "toposcope/crisp_search.h"
+#include "toposcope/labeling/conflict_set.h"
+#include "toposcope/labeling/crisp_outcome.h"
+#include "toposcope/labeling/crisp_search.h"
 #include "toposcope/plugin.h"
 
 namespace {

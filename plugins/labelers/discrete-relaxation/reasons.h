@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "toposcope/crisp_propagation.h"
+#include "toposcope/labeling/crisp_propagation.h"
 
 namespace toposcope::discrete_relaxation {
 

@@ -14,7 +14,7 @@
 
 #include "kernels.h"
 #include "toposcope/labeling.h"
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope::least_error {
 

@@ -12,7 +12,7 @@
 #include "elimination_order.h"
 #include "factors.h"
 #include "log_sum.h"
-#include "toposcope/large_array.h"
+#include "toposcope/geometry/large_array.h"
 #include "watch.h"
 
 namespace toposcope::posterior {

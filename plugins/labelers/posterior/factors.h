@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "toposcope/labeling_tools.h"
-#include "toposcope/large_array.h"
+#include "toposcope/geometry/large_array.h"
+#include "toposcope/labeling/tools.h"
 #include "watch.h"
 
 namespace toposcope::posterior {

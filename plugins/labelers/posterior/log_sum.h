@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope::posterior {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "factors.h"
-#include "toposcope/large_array.h"
+#include "toposcope/geometry/large_array.h"
 #include "watch.h"
 
 namespace toposcope::posterior {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope::posterior {
 

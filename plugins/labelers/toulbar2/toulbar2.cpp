@@ -6,10 +6,10 @@
 
 #include "solver_output.h"
 #include "solver_process.h"
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/problem_writer.h"
+#include "toposcope/labeling/tools.h"
 #include "toposcope/plugin.h"
-#include "toposcope/problem_writer.h"
-#include "toposcope/programs.h"
+#include "toposcope/system/programs.h"
 
 namespace {
 

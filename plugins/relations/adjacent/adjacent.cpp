@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/point_sets.h"
 #include "toposcope/plugin.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
 #include "toposcope/plugin.h"
 
 namespace {

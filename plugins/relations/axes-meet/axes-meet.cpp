@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "toposcope/geometry.h"
 #include "toposcope/plugin.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
 #include "toposcope/plugin.h"
 
 namespace {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
 
 namespace toposcope::mirror {
 

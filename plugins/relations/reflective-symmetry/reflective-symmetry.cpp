@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mirror.h"
+#include "toposcope/geometry/point_sets.h"
 #include "toposcope/plugin.h"
 
 namespace {

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "circle_fit.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/turn_coverage.h"
 #include "toposcope/plugin.h"
 
 namespace toposcope::circle {

@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/point_sets.h"
+
 namespace toposcope::circle {
 namespace {
 

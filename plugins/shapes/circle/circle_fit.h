@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "toposcope/geometry.h"
-#include "toposcope/representatives.h"
+#include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/representatives.h"
 #include "toposcope/shapes.h"
 
 namespace toposcope::circle {

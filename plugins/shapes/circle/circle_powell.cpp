@@ -5,6 +5,7 @@
 #include <nlopt.hpp>
 
 #include "circle_fit.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope::circle {
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "circle_fit.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope::circle {
 namespace {

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "polyline.h"
+#include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/point_sets.h"
 #include "toposcope/plugin.h"
 
 namespace toposcope::line_group {

@@ -9,8 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "toposcope/geometry.h"
-#include "toposcope/representatives.h"
+#include "toposcope/geometry/representatives.h"
 #include "toposcope/shapes.h"
 
 namespace toposcope::line_group {

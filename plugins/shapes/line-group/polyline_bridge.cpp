@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "polyline.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope::line_group {
 namespace {

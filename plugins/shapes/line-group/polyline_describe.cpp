@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "polyline.h"
+#include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope::line_group {
 namespace {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "polyline.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope::line_group {
 namespace {

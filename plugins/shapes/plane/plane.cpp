@@ -7,7 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/point_sets.h"
 #include "toposcope/plugin.h"
 
 namespace toposcope::plane {

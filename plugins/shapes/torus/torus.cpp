@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/revolution.h"
 #include "toposcope/plugin.h"
-#include "toposcope/revolution.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "toposcope/large_array.h"
+#include "toposcope/geometry/large_array.h"
 
 namespace component_tree {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "component_tree.h"
 #include "halves.h"
-#include "toposcope/curvature.h"
-#include "toposcope/large_array.h"
+#include "toposcope/geometry/curvature.h"
+#include "toposcope/geometry/large_array.h"
 #include "toposcope/plugin.h"
 
 namespace {

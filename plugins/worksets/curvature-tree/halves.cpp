@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace component_tree {
 namespace {

@@ -2,7 +2,7 @@
 
 // Working sets by two curvature thresholds and region growing: dissertation 4.2 and 4.3.
 
-#include "toposcope/curvature.h"
+#include "toposcope/geometry/curvature.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/closest_face.h"
+#include "toposcope/geometry/closest_face.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/curvature.h"
+#include "toposcope/geometry/curvature.h"
 
 #include <gtest/gtest.h>
 

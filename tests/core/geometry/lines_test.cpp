@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "toposcope/geometry/lines.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-
-#include "toposcope/geometry.h"
 
 namespace toposcope {
 namespace {

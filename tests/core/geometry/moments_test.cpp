@@ -10,7 +10,7 @@
 #include "mesh/mesh.h"
 #include "support/meshes.h"
 #include "support/plugins.h"
-#include "toposcope/curvature.h"
+#include "toposcope/geometry/curvature.h"
 
 namespace toposcope {
 namespace {

@@ -6,7 +6,8 @@
 #include <limits>
 
 #include "support/random.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/turn_coverage.h"
 
 namespace toposcope {
 namespace {

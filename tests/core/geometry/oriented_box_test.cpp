@@ -6,7 +6,7 @@
 #include <random>
 
 #include "support/meshes.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope {
 namespace {

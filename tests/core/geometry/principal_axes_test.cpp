@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "support/meshes.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope {
 namespace {

@@ -14,7 +14,7 @@
 #include "support/analytic_surfaces.h"
 #include "support/meshes.h"
 #include "support/plugins.h"
-#include "toposcope/curvature.h"
+#include "toposcope/geometry/curvature.h"
 
 namespace toposcope {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The smallest conflicting set against all subsets of constraints and exclusions.
 
-#include "toposcope/conflict_set.h"
+#include "toposcope/labeling/conflict_set.h"
 
 #include <gtest/gtest.h>
 

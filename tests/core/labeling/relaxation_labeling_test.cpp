@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Relaxation labelling: its identities, a step by hand, the theorems of Hummel and Zucker.
 
-#include "toposcope/relaxation_labeling.h"
+#include "toposcope/labeling/relaxation_labeling.h"
 
 #include <gtest/gtest.h>
 

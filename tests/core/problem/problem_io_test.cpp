@@ -15,12 +15,12 @@
 #include "base/errors.h"
 #include "base/schemas.h"
 #include "model/yaml_schema.h"
-#include "problem/problem_formats.h"
+#include "problem_formats.h"
 #include "support/labeling_problems.h"
 #include "support/plugins.h"
-#include "toposcope/labeling_tools.h"
-#include "toposcope/problem_writer.h"
-#include "toposcope/programs.h"
+#include "toposcope/labeling/problem_writer.h"
+#include "toposcope/labeling/tools.h"
+#include "toposcope/system/programs.h"
 
 namespace {
 

@@ -11,11 +11,11 @@
 #include <fstream>
 
 #include "core/problem/global_function_cases.h"
-#include "problem/problem_formats.h"
+#include "problem_formats.h"
 #include "support/labeling_problems.h"
 #include "support/plugins.h"
-#include "toposcope/labeling_tools.h"
-#include "toposcope/programs.h"
+#include "toposcope/labeling/tools.h"
+#include "toposcope/system/programs.h"
 
 namespace {
 

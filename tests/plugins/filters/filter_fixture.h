@@ -16,8 +16,8 @@
 #include "base/run_context.h"
 #include "support/meshes.h"
 #include "support/plugins.h"
-#include "toposcope/closest_face.h"
 #include "toposcope/filters.h"
+#include "toposcope/geometry/closest_face.h"
 
 namespace toposcope::test {
 

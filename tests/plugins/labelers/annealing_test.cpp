@@ -9,7 +9,7 @@
 #include "support/labeling_problems.h"
 #include "support/planted_problems.h"
 #include "support/plugins.h"
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/tools.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "base/run_context.h"
 #include "support/labeling_problems.h"
 #include "support/plugins.h"
-#include "toposcope/labeling_tools.h"
+#include "toposcope/labeling/tools.h"
 
 namespace {
 

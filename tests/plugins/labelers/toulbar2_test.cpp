@@ -13,8 +13,8 @@
 #include "support/labeling_problems.h"
 #include "support/planted_problems.h"
 #include "support/plugins.h"
-#include "toposcope/labeling_tools.h"
-#include "toposcope/programs.h"
+#include "toposcope/labeling/tools.h"
+#include "toposcope/system/programs.h"
 
 namespace {
 

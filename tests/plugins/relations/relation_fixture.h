@@ -12,7 +12,8 @@
 
 #include "support/meshes.h"
 #include "support/plugins.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/point_sets.h"
 #include "toposcope/relations.h"
 
 namespace toposcope::test {

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "shape_fixture.h"
+#include "toposcope/geometry/lines.h"
 
 namespace toposcope::test {
 namespace {

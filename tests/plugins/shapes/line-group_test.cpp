@@ -4,6 +4,7 @@
 #include <map>
 
 #include "line_group_fixture.h"
+#include "toposcope/geometry/lines.h"
 
 namespace toposcope::test {
 namespace {

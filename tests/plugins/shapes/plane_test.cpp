@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "shape_fixture.h"
+#include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope::test {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "support/plugins.h"
-#include "toposcope/geometry.h"
+#include "toposcope/geometry/point_sets.h"
 #include "toposcope/shapes.h"
 
 namespace toposcope::test {

@@ -8,6 +8,8 @@
 #include <thread>
 
 #include "shape_fixture.h"
+#include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope::test {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface_fixture.h"
+#include "toposcope/geometry/lines.h"
 
 namespace toposcope::test {
 namespace {

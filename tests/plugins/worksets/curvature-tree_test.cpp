@@ -12,7 +12,7 @@
 #include "pipeline/working_sets.h"
 #include "support/meshes.h"
 #include "support/plugins.h"
-#include "toposcope/curvature.h"
+#include "toposcope/geometry/curvature.h"
 
 namespace toposcope {
 namespace {

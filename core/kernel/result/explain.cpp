@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/labeling_problem.h"
+#include "pipeline/places.h"
+#include "result/result.h"
+#include "toposcope/labeling/tools.h"
+
+namespace toposcope {
+namespace {
+
+/// Reads one labelling of the best class.
+class Explainer {
+ public:
+  Explainer(const Analysis& analysis, const Model& model, const Stations& stations, Context& context)
+      : analysis_(analysis),
+        model_(model),
+        stations_(stations),
+        context_(context),
+        posed_(analysis.classes[analysis.best]),
+        best_(posed_.answer) {}
+
+  RelationReport relation(Index constraint, const Labeling& labeling) const {
+    const Index r = posed_.relationships[constraint];
+    const Relationship& relationship = model_.relationships[r];
+    RelationReport report;
+    report.name = relationship.name;
+    report.type = relationship.plugin;
+    report.unit = stations_.relation_units[r];
+    std::vector<const ConstructedFeature*> given;
+    for (Index v : posed_.problem.constraints[constraint].scope) {
+      report.features.push_back(posed_.problem.variables[v].name);
+      if (labeling.values[v] == 0)
+        report.why = "'" + report.features.back() + "' is missing";
+      else
+        given.push_back(&constructed(v, labeling.values[v]));
+    }
+    if (!report.why.empty()) return report;
+    const RelationResult result = test_relationship(analysis_.mesh.view(), model_, r, given, stations_, context_);
+    const double scale = report.unit == "deg" ? 180 / pi : 1;
+    report.tested = true;
+    report.applicable = result.applicable;
+    report.why = result.why;
+    report.residual = result.residual * scale;
+    report.tolerance = result.tolerance * scale;
+    report.satisfied = violation(result) <= 1;
+    report.probability = relation_probability(stations_.probability, result);
+    return report;
+  }
+
+  FeatureReport feature(Index model_feature) const {
+    FeatureReport report;
+    report.name = model_.features[model_feature].name;
+    report.shape_plugin = model_.features[model_feature].shape.plugin;
+    const auto found = std::find(posed_.features.begin(), posed_.features.end(), model_feature);
+    if (found == posed_.features.end()) {
+      report.probability = 1;
+      report.missing.reason = "class '" + posed_.name + "' has no such feature";
+      return report;
+    }
+    const Index v = static_cast<Index>(found - posed_.features.begin());
+    const Index value = best_.values[v];
+    report.present = value > 0;
+    report.probability = probability(v, value);
+    if (report.present) {
+      const ConstructedFeature& made = constructed(v, value);
+      report.evidence = -price_over_missing(best_, v).cost;
+      report.shape = made.shape;
+      report.working_sets = made.sets;
+      report.triangles = triangles_of(made);
+      for (Index t : report.triangles) report.faces.push_back(analysis_.mesh.input->face_origin()[t]);
+      std::sort(report.faces.begin(), report.faces.end());
+      report.faces.erase(std::unique(report.faces.begin(), report.faces.end()), report.faces.end());
+    } else {
+      report.missing = why_missing(model_feature, v);
+    }
+    return report;
+  }
+
+ private:
+  const ConstructedFeature& constructed(Index variable, Index value) const {
+    return analysis_.features.all[posed_.problem.variables[variable].candidates[value - 1]];
+  }
+
+  double probability(Index v, Index value) const {
+    if (posed_.outcome.posteriors.empty()) return std::numeric_limits<double>::quiet_NaN();
+    return probability_of_place(posed_, v, value, model_, analysis_, stations_);
+  }
+
+  /// Triangles of the input of which at least half (of the filtered pieces) have two vertices in the working sets.
+  std::vector<Index> triangles_of(const ConstructedFeature& made) const {
+    const MeshView& view = analysis_.mesh.view();
+    std::vector<bool> inside(view.vertex_count(), false);
+    for (Index s : made.sets)
+      for (Index v : analysis_.sets[s]) inside[v] = true;
+    std::vector<std::int32_t> balance(analysis_.mesh.input->view().face_count(), 0);
+    std::vector<bool> touched(balance.size(), false);
+    for (Index f = 0; f < view.face_count(); ++f) {
+      const auto& [a, b, c] = view.triangles[f];
+      const bool in = inside[a] + inside[b] + inside[c] >= 2;
+      balance[analysis_.mesh.origin[f]] += in ? 1 : -1;
+      if (in) touched[analysis_.mesh.origin[f]] = true;
+    }
+    std::vector<Index> triangles;
+    for (Index t = 0; t < balance.size(); ++t)
+      if (touched[t] && balance[t] >= 0) triangles.push_back(t);
+    return triangles;
+  }
+
+  MissingReport why_missing(Index model_feature, Index v) const {
+    MissingReport report;
+    const LabelingVariable& variable = posed_.problem.variables[v];
+    if (variable.candidates.empty()) {
+      report.reason = no_candidate(model_.features[model_feature], analysis_.features.of_feature[model_feature].count);
+      return report;
+    }
+    report.conflict = conflict_of_missing(posed_.problem, best_, v, context_);
+    Labeling trial = best_;
+    Index nearest = 0, in_conflict = 0;
+    Price least{std::numeric_limits<std::size_t>::max(), 0};
+    for (Index value = 1; value < variable.domain(); ++value) {
+      trial.values[v] = value;
+      if (!meets_exclusions(posed_.problem, trial.values)) {
+        ++in_conflict;
+        continue;
+      }
+      if (const Price price = price_over_missing(trial, v); price < least) {
+        least = price;
+        nearest = value;
+      }
+    }
+    if (nearest == 0) {
+      report.reason = "all " + std::to_string(in_conflict) + " candidates share vertices with other labelled features";
+      return report;
+    }
+    trial.values[v] = nearest;
+    report.nearest_cost = least.cost;
+    report.nearest = constructed(v, nearest).shape;
+    for (Index c = 0; c < posed_.problem.constraints.size(); ++c) {
+      const auto& scope = posed_.problem.constraints[c].scope;
+      if (std::find(scope.begin(), scope.end(), v) == scope.end()) continue;
+      RelationReport relation_report = relation(c, trial);
+      if (relation_report.tested && !relation_report.satisfied) report.failed.push_back(std::move(relation_report));
+    }
+    report.reason = report.failed.empty()
+                        ? "the nearest candidate does not stand out from the rest of the mesh"
+                        : "the nearest candidate breaks " + std::to_string(report.failed.size()) + " relationship(s)";
+    return report;
+  }
+
+  /// What labelling variable v adds over leaving it missing, all else as it is: relationships forbidden, and cost
+  /// without these.
+  struct Price {
+    std::size_t forbidden;
+    double cost;
+    auto operator<=>(const Price&) const = default;
+  };
+  Price price_over_missing(const Labeling& labeling, Index v) const {
+    const LabelingVariable& variable = posed_.problem.variables[v];
+    Price price{0, variable.costs[labeling.values[v]] - variable.costs[0]};
+    for (const LabelingConstraint& constraint : posed_.problem.constraints) {
+      if (std::find(constraint.scope.begin(), constraint.scope.end(), v) == constraint.scope.end()) continue;
+      const double cost = constraint.costs[table_entry(posed_.problem, constraint, labeling.values)];
+      if (cost < forbidden)
+        price.cost += cost;
+      else
+        ++price.forbidden;
+    }
+    return price;
+  }
+
+  static std::string no_candidate(const ModelFeature& feature, const CandidateCount& count) {
+    std::string types;
+    for (const std::string& type : feature.worksets) types += (types.empty() ? "" : " + ") + type;
+    if (count.groups == 0) return "no working set of type " + types;
+    std::string reason =
+        "none of " + std::to_string(count.groups) + " groups of working sets of type " + types + " became a candidate:";
+    const auto part = [&](std::size_t n, const char* what) {
+      if (n > 0) reason += " " + std::to_string(n) + " " + what + ";";
+    };
+    part(count.boxed_out, "too large or too small for the model's ranges");
+    part(count.unusable, ("without a usable " + feature.shape.plugin).c_str());
+    part(count.out_of_range, "with a parameter outside the model's ranges");
+    part(count.poor_fit, "with a fit error beyond max_fit_error");
+    if (reason.back() == ';') reason.pop_back();
+    return reason;
+  }
+
+  const Analysis& analysis_;
+  const Model& model_;
+  const Stations& stations_;
+  Context& context_;
+  const ClassOutcome& posed_;
+  const Labeling& best_;
+};
+
+}  // namespace
+
+Result explain(const Analysis& analysis, const Model& model, const std::string& mesh_path, const Stations& stations,
+               Context& context) {
+  const ClassOutcome& posed = analysis.classes[analysis.best];
+  const LabelingOutcome& outcome = posed.outcome;
+  const Explainer explainer(analysis, model, stations, context);
+  const MeshView& input = analysis.mesh.input->view();
+
+  Result result;
+  result.mesh_path = mesh_path;
+  result.vertices = input.vertex_count();
+  result.faces = analysis.mesh.input->input_faces();
+  result.box = input.box;
+  result.mean_edge = input.mean_edge;
+  result.model = model.name;
+  result.log_evidence = posed.log_evidence;
+  result.guarantee = outcome.guarantee;
+  result.probabilities = posed.probabilities;
+  result.optimal = outcome.optimal;
+  result.working_sets = analysis.sets.size();
+  result.timings = analysis.timings;
+  result.plugins = stations.uses;
+  for (std::size_t c = 0; c < analysis.classes.size(); ++c) {
+    const ClassOutcome& each = analysis.classes[c];
+    result.classes.push_back({each.name, each.log_evidence, each.least_cost, analysis.class_probabilities[c],
+                              model.classes.empty() || each.complete});
+  }
+  if (!model.classes.empty() && posed.complete && analysis.class_evidence[analysis.best] > 0)
+    result.class_name = posed.name;
+  for (Index f = 0; f < model.features.size(); ++f) {
+    result.features.push_back(explainer.feature(f));
+    result.candidates.emplace_back(model.features[f].name, analysis.features.of_feature[f].count);
+  }
+  const Labeling& best = posed.answer;
+  for (Index c = 0; c < posed.problem.constraints.size(); ++c) result.relations.push_back(explainer.relation(c, best));
+  const auto present = std::count_if(best.values.begin(), best.values.end(), [](Index value) { return value > 0; });
+  result.status = present == 0 ? "none" : present == std::ssize(best.values) ? "labelled" : "partial";
+  for (std::size_t k = 0; k < outcome.labelings.size(); ++k) {
+    if (outcome.labelings[k].values == best.values) continue;
+    AlternativeReport& alternative = result.alternatives.emplace_back();
+    alternative.cost = outcome.labelings[k].cost;
+    // Not a number without evidence: `min` keeps its first argument then.
+    alternative.probability = std::min(std::exp(-outcome.labelings[k].cost - outcome.log_evidence), 1.0);
+    for (Index v = 0; v < best.values.size(); ++v)
+      alternative.candidates.emplace_back(posed.problem.variables[v].name,
+                                          static_cast<int>(outcome.labelings[k].values[v]));
+  }
+  return result;
+}
+
+}  // namespace toposcope

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/mesh_io.h"
+#include "result/palette.h"
+#include "result/repair_words.h"
+#include "result/result.h"
+
+namespace toposcope {
+namespace {
+
+/// The dissertation's ranking of labellings makes no probabilities.
+std::string probability(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.3f}", value);
+}
+
+std::string value_of(const FeatureReport& report) {
+  std::string text;
+  for (const Measure& measure : report.shape.measures)
+    if (text.size() < 60)
+      text += fmt::format("{}{} {:.4g}{}", text.empty() ? "" : ", ", measure.name, measure.value,
+                          measure.sd > 0 ? fmt::format(" +- {:.2g}", measure.sd) : "");
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const Result& result) {
+  std::string text = fmt::format("{}: model '{}', {}", result.mesh_path, result.model, result.status);
+  for (const ClassReport& each : result.classes)
+    if (each.name == result.class_name) text += fmt::format(", class {} ({:.3f})", each.name, each.probability);
+  text += fmt::format("\n  {} vertices, {} faces, box {:.4g} x {:.4g} x {:.4g}, mean edge {:.3g}\n", result.vertices,
+                      result.faces, result.box.a(), result.box.b(), result.box.c(), result.mean_edge);
+  if (result.repair.notable()) text += fmt::format("  repaired: {}\n", repair_in_words(result.repair));
+  text += "\n";
+  text += fmt::format("  {:<14}{:<9}{:<6}  {:<11}{:<44} {:>9} {:>6}\n", "feature", "", "prob.", "shape", "measured",
+                      "fit error", "faces");
+  for (const FeatureReport& report : result.features) {
+    if (report.present)
+      text += fmt::format("  {:<14}{:<9}{:<6}  {:<11}{:<44} {:>9.3g} {:>6}\n", report.name, "found",
+                          probability(report.probability), report.shape_plugin, value_of(report), report.shape.rms,
+                          report.faces.size());
+    else
+      text += fmt::format("  {:<14}{:<9}{:<6}  {}\n", report.name, "missing", probability(report.probability),
+                          report.missing.reason);
+    if (report.missing.conflict) text += fmt::format("  {:<31}{}\n", "", in_words(*report.missing.conflict));
+    for (const RelationReport& failed : report.missing.failed)
+      text += failed.applicable ? fmt::format("  {:<31}{} {}: residual {:.4g} {}, tolerance {:.3g}\n", "", failed.name,
+                                              failed.type, failed.residual, failed.unit, failed.tolerance)
+                                : fmt::format("  {:<31}{} {}: {}\n", "", failed.name, failed.type, failed.why);
+  }
+  text += fmt::format("\n  {:<6}{:<22}{:<34}{:>10} {:>10} {:<7}{:<12}{:>6}\n", "", "relationship", "features",
+                      "residual", "tolerance", "unit", "", "prob.");
+  for (const RelationReport& report : result.relations) {
+    const std::string features = fmt::format("{}", fmt::join(report.features, ", "));
+    if (report.tested && report.applicable)
+      text += fmt::format("  {:<6}{:<22}{:<34}{:>10.4g} {:>10.4g} {:<7}{:<12}{:>6.3f}\n", report.name, report.type,
+                          features, report.residual, report.tolerance, report.unit,
+                          report.satisfied ? "satisfied" : "not met", report.probability);
+    else
+      text += fmt::format("  {:<6}{:<22}{:<34}{}\n", report.name, report.type, features, report.why);
+  }
+  return text;
+}
+
+void write_labels(const std::filesystem::path& path, const Mesh& input, const Result& result) {
+  const MeshView& view = input.view();
+  std::vector<Rgb> colors(view.face_count(), no_label_color);
+  std::vector<std::int32_t> labels(view.face_count(), 0);
+  for (std::size_t f = 0; f < result.features.size(); ++f)
+    for (Index t : result.features[f].triangles) {
+      colors[t] = feature_color(f);
+      labels[t] = static_cast<std::int32_t>(f + 1);
+    }
+  write_mesh(path, view.positions, view.triangles, {colors, labels, input.face_origin()});
+}
+
+}  // namespace toposcope
