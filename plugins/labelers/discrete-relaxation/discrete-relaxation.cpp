@@ -33,7 +33,7 @@ class Run {
     LabelingOutcome outcome = label(domains, !stopped && !open, stopped);
     outcome.lower_bound = none_ && network_.by_cost_alone() ? forbidden : least;
     if (network_.complete()) {
-      outcome.removed = Reasons(domains).all();
+      outcome.removed = reasons(domains);
       tell_domains(domains, outcome);
     }
     if (inconsistent_)

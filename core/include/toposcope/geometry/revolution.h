@@ -6,9 +6,12 @@
 // search, the robust refinement and the account of what is explained are the same for all.
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "toposcope/shapes.h"
@@ -88,10 +91,26 @@ class RevolutionKind {
                              FittedShape& shape) const = 0;
 };
 
-/// Fits a surface of a kind: random and regular starts ranked by a quantile of the distances, the best refined by least
-/// Geman-McClure distances (Levenberg-Marquardt); then the account of it.
-/// \param scale  mesh unit; points within two of it belong to the surface
-FittedShape fit_revolution(const RevolutionKind& kind, const FitInput& input, double scale);
+/// A plugin of a kind of surface but for the distance to a shape. Random and regular starts are ranked by a quantile of
+/// the distances, the best refined by least Geman-McClure distances (Levenberg-Marquardt); then the account of it.
+class RevolutionFitter : public ShapeFitter {
+ public:
+  /// \param options  of a table with `scale_option`
+  RevolutionFitter(std::unique_ptr<const RevolutionKind> kind, const Options& options)
+      : kind_(std::move(kind)), scale_(options.real("scale")) {}
+  FittedShape fit(const FitInput& input, const Options& arguments, Context& context) const override;
+  /// Of `coverage`, `area`, `length`, and of radii by any name.
+  Interval bounds(std::string_view measure, std::span<const Box> sets, const Options& arguments) const override;
+
+ private:
+  std::unique_ptr<const RevolutionKind> kind_;
+  double scale_;  // mean edges
+};
+
+/// The row of `scale` in the option table of such a plugin.
+constexpr OptionSpec scale_option(const char* meaning) {
+  return {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", meaning};
+}
 
 /// Radii above so many diagonals of bb(w) are those of something flat (or of a straight tube).
 inline constexpr double flat_diagonals = 10;
