@@ -68,7 +68,7 @@ class Search {
   Schedule schedule() {
     ConditionalCosts costs(tables_);
     if (best_.labelings().empty()) {
-      Random random(mix(context_.seed()));
+      Random random(splitmix64(context_.seed()));
       costs.reset(random_values(tables_, random));
     } else {
       costs.reset(best_.labelings()[0].values);
@@ -85,7 +85,7 @@ class Search {
   };
 
   Found run(std::size_t number, const Schedule& schedule) const {
-    Run run(tables_, schedule, mix(context_.seed() + number), k_best_, request_.within, deadline_);
+    Run run(tables_, schedule, splitmix64(context_.seed() + number), k_best_, request_.within, deadline_);
     // The first two are short, so that one who stops early finds something that has cooled.
     const std::uint64_t divisor = number == 0 ? 16 : number == 1 ? 4 : 1;
     run.anneal(std::max<std::uint64_t>(settings_.sweeps / divisor, 1));

@@ -46,7 +46,7 @@ class Run {
   void start(std::span<const Index> values) {
     costs_.reset(values);
     signature_ = 0;
-    for (Index v = 0; v < values.size(); ++v) signature_ ^= mix(tables_.offset(v) + values[v]);
+    for (Index v = 0; v < values.size(); ++v) signature_ ^= splitmix64(tables_.offset(v) + values[v]);
     offer();
   }
 
@@ -89,7 +89,7 @@ class Run {
   }
 
   void move(Index v, Index value) {
-    signature_ ^= mix(tables_.offset(v) + costs_.values()[v]) ^ mix(tables_.offset(v) + value);
+    signature_ ^= splitmix64(tables_.offset(v) + costs_.values()[v]) ^ splitmix64(tables_.offset(v) + value);
     costs_.assign(v, value);
     ++moves_;
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "toposcope/labeling/conditional_costs.h"
+#include "toposcope/system/random.h"
 
 namespace toposcope::annealing {
 
@@ -19,19 +20,11 @@ class Random {
   /// \param n  below 2^32
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(((engine_() >> 32) * n) >> 32); }
   /// In (0, 1].
-  double positive() { return static_cast<double>((engine_() >> 11) + 1) * 0x1p-53; }
+  double positive() { return uniform_open_closed(engine_()); }
 
  private:
   std::mt19937_64 engine_;
 };
-
-/// Steele, Lea and Flood's finaliser: nearby numbers become unrelated ones.
-inline std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
-}
 
 /// \return values whose own costs are finite. \pre every variable has one
 inline std::vector<Index> random_values(const CostTables& tables, Random& random) {
