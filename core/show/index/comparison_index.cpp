@@ -10,10 +10,19 @@ namespace {
 
 Table labelers_table(const std::vector<Comparison>& comparisons) {
   Table table{.title = "Labelers over all meshes", .id = "labelers"};
-  table.columns = {"labeler", {"meshes", "number"}, {"proven optimal", "number"}, {"unsound", "number"},
-                   {"mean gap", "number", "nats"}, {"worst gap", "number", "nats"}, {"mean posterior", "percent"},
-                   {"median", "ms", "ms"}, {"worst", "ms", "ms"}, {"nodes", "number"}, {"right", "number"},
-                   {"of", "number"}, {"part right", "percent"}};
+  table.columns = {"labeler",
+                   {"meshes", "number"},
+                   {"proven optimal", "number"},
+                   {"unsound", "number"},
+                   {"mean gap", "number", "nats"},
+                   {"worst gap", "number", "nats"},
+                   {"mean posterior", "percent"},
+                   {"median", "ms", "ms"},
+                   {"worst", "ms", "ms"},
+                   {"nodes", "number"},
+                   {"right", "number"},
+                   {"of", "number"},
+                   {"part right", "percent"}};
   const Cell none;
   for (const Total& t : totals(comparisons))
     table.rows.push_back({t.labeler, t.meshes, t.proven, t.unsound, t.mean_gap, t.worst_gap, t.mean_posterior,
@@ -28,9 +37,19 @@ std::string name_of(const Comparison& comparison) {
 
 Table entries_table(const std::vector<Comparison>& comparisons) {
   Table table{.title = "Each mesh under each labeler", .id = "entries"};
-  table.columns = {"mesh", "labeler", "class", {"cost", "number", "nats"}, {"bound", "number", "nats"},
-                   {"gap", "number", "nats"}, "proven", {"posterior", "percent"}, {"time", "ms", "ms"},
-                   {"nodes", "number"}, {"right", "number"}, {"of", "number"}, "promise"};
+  table.columns = {"mesh",
+                   "labeler",
+                   "class",
+                   {"cost", "number", "nats"},
+                   {"bound", "number", "nats"},
+                   {"gap", "number", "nats"},
+                   "proven",
+                   {"posterior", "percent"},
+                   {"time", "ms", "ms"},
+                   {"nodes", "number"},
+                   {"right", "number"},
+                   {"of", "number"},
+                   "promise"};
   for (const Comparison& comparison : comparisons)
     for (const Entry& e : comparison.entries)
       table.rows.push_back({name_of(comparison), e.labeler, e.class_name, e.cost, e.bound, e.gap(),

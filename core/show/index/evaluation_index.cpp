@@ -32,10 +32,18 @@ double median_ms(const Evaluation& evaluation) {
 
 Table datasets_table(const std::vector<Evaluation>& evaluations) {
   Table table{.title = "Data sets", .id = "datasets"};
-  table.columns = {"data set", "model", {"meshes", "number"}, {"wholly right", "number"}, {"meshes right", "percent"},
-                   {"features right", "number"}, {"of", "number"}, {"part right", "percent"},
-                   {"distance", "number", "mean edges"}, {"worst", "number", "mean edges"},
-                   {"calibration error", "number"}, {"median", "ms", "ms"}};
+  table.columns = {"data set",
+                   "model",
+                   {"meshes", "number"},
+                   {"wholly right", "number"},
+                   {"meshes right", "percent"},
+                   {"features right", "number"},
+                   {"of", "number"},
+                   {"part right", "percent"},
+                   {"distance", "number", "mean edges"},
+                   {"worst", "number", "mean edges"},
+                   {"calibration error", "number"},
+                   {"median", "ms", "ms"}};
   for (const Evaluation& evaluation : evaluations) {
     const auto meshes = all_of(evaluation);
     const FeatureSummary all = summarize(meshes).back();
@@ -45,8 +53,7 @@ Table datasets_table(const std::vector<Evaluation>& evaluations) {
     table.rows.push_back({evaluation.dataset, evaluation.model, meshes.size(), right, share(right, meshes.size()),
                           all.right + all.absent, all.all(), share(all.right + all.absent, all.all()),
                           measured(all, all.edges), measured(all, all.worst_edges),
-                          reliable.count > 0 ? reliable.expected_calibration_error : no_number,
-                          median_ms(evaluation)});
+                          reliable.count > 0 ? reliable.expected_calibration_error : no_number, median_ms(evaluation)});
   }
   return table;
 }
@@ -109,9 +116,16 @@ Table meshes_table(const Evaluation& evaluation, const std::vector<MeshCard>& ca
 
 Table features_table(const Evaluation& evaluation) {
   Table table{.title = evaluation.dataset + ": features", .id = evaluation.dataset + "-features"};
-  table.columns = {"feature", {"right", "number"}, {"of", "number"}, {"part right", "percent"}, {"wrong", "number"},
-                   {"missed", "number"}, {"spurious", "number"}, {"absent", "number"},
-                   {"distance", "number", "mean edges"}, {"worst", "number", "mean edges"},
+  table.columns = {"feature",
+                   {"right", "number"},
+                   {"of", "number"},
+                   {"part right", "percent"},
+                   {"wrong", "number"},
+                   {"missed", "number"},
+                   {"spurious", "number"},
+                   {"absent", "number"},
+                   {"distance", "number", "mean edges"},
+                   {"worst", "number", "mean edges"},
                    {"of the diagonal", "percent"}};
   for (const FeatureSummary& s : summarize(all_of(evaluation)))
     table.rows.push_back({s.name, s.right + s.absent, s.all(), share(s.right + s.absent, s.all()), s.wrong, s.missed,

@@ -39,8 +39,7 @@ Column labeler_column() {
 // What is no finite number is written as null.
 Json as_json(const Entry& entry) {
   Json labeling = Json::object();
-  for (const auto& [feature, candidate] : entry.labeling)
-    labeling[feature] = candidate == 0 ? Json() : Json(candidate);
+  for (const auto& [feature, candidate] : entry.labeling) labeling[feature] = candidate == 0 ? Json() : Json(candidate);
   return {{"labeler", entry.labeler},
           {"class", entry.class_name},
           {"labeling", labeling},
@@ -127,10 +126,9 @@ std::string to_markdown(const std::vector<Total>& totals) {
                           number("posterior", 0, "{:.3f}"), number("median ms", 0, "{:.2f}"),
                           number("worst ms", 0, "{:.2f}"), number("nodes", 0), "right"}};
   for (const Total& total : totals)
-    table.rows.push_back({"`" + total.labeler + "`", fmt::format("{} of {}", total.proven, total.meshes),
-                          total.unsound, total.mean_gap, total.worst_gap, total.mean_posterior, total.median_ms,
-                          total.worst_ms, total.nodes,
-                          total.of > 0 ? Cell(fmt::format("{} of {}", total.right, total.of)) : Cell()});
+    table.rows.push_back({"`" + total.labeler + "`", fmt::format("{} of {}", total.proven, total.meshes), total.unsound,
+                          total.mean_gap, total.worst_gap, total.mean_posterior, total.median_ms, total.worst_ms,
+                          total.nodes, total.of > 0 ? Cell(fmt::format("{} of {}", total.right, total.of)) : Cell()});
   return to_markdown(table);
 }
 
@@ -154,8 +152,8 @@ std::string to_csv(const std::vector<Comparison>& comparisons) {
   for (const Comparison& comparison : comparisons)
     for (const Entry& entry : comparison.entries)
       table.rows.push_back({comparison.mesh, entry.labeler, entry.class_name, words(entry.labeling), entry.cost,
-                            entry.proven ? Cell(0.0) : Cell(entry.gap()), entry.proven ? "yes" : "no",
-                            entry.posterior, entry.time_ms, entry.nodes, entry.right, entry.of, entry.guarantee});
+                            entry.proven ? Cell(0.0) : Cell(entry.gap()), entry.proven ? "yes" : "no", entry.posterior,
+                            entry.time_ms, entry.nodes, entry.right, entry.of, entry.guarantee});
   for (const Total& total : totals(comparisons))
     table.rows.push_back({"", total.labeler, "", "", none, total.mean_gap,
                           fmt::format("{} of {}", total.proven, total.meshes), total.mean_posterior, total.median_ms,
