@@ -12,7 +12,7 @@
 #include <optional>
 #include <regex>
 
-#include "problem_io.h"
+#include "formats/problem_io.h"
 #include "support/planted_problems.h"
 #include "support/plugins.h"
 #include "table/table.h"

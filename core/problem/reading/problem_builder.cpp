@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "problem_builder.h"
+#include "reading/problem_builder.h"
 
 #include <algorithm>
 

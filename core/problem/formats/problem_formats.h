@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "problem_io.h"
+#include "formats/problem_io.h"
 
 namespace toposcope {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "problem_io.h"
-#include "problem_text.h"
+#include "reading/problem_file.h"
+#include "reading/problem_text.h"
 
 namespace toposcope {
 

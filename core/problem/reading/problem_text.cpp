@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "problem_text.h"
+#include "reading/problem_text.h"
 
 #include <charconv>
 #include <cmath>

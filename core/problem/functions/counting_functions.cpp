@@ -4,7 +4,7 @@
 #include <limits>
 #include <memory>
 
-#include "function_families.h"
+#include "functions/function_families.h"
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope::intension {

@@ -2,7 +2,7 @@
 #include <memory>
 #include <utility>
 
-#include "function_families.h"
+#include "functions/function_families.h"
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope::intension {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "problem_text.h"
+#include "reading/problem_text.h"
 
 namespace toposcope {
 

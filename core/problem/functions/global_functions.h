@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "problem_builder.h"
+#include "reading/problem_builder.h"
 
 namespace toposcope {
 

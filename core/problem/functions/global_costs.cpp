@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "global_costs.h"
+#include "functions/global_costs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "problem_io.h"
+#include "formats/problem_io.h"
 
 #include <fmt/format.h>
 
 #include <stdexcept>
 
 #include "base/errors.h"
+#include "reading/problem_text.h"
+#include "formats/problem_formats.h"
 #include "io/extension.h"
 #include "io/mesh_io.h"
-#include "problem_formats.h"
-#include "problem_text.h"
 #include "toposcope/labeling/problem_writer.h"
 #include "toposcope/labeling/tools.h"
 

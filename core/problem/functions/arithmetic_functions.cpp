@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
-#include "function_families.h"
+#include "functions/function_families.h"
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope::intension {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "problem_formats.h"
+#include "formats/problem_formats.h"
 
 namespace toposcope {
 namespace {

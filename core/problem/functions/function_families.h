@@ -3,7 +3,7 @@
 
 // The functions in intension by family: each reads its parameters and has its tables made.
 
-#include "function_call.h"
+#include "functions/function_call.h"
 
 namespace toposcope::intension {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <unordered_map>
 
-#include "cfn_parameters.h"
-#include "global_functions.h"
-#include "problem_formats.h"
+#include "formats/cfn_parameters.h"
+#include "formats/problem_formats.h"
+#include "functions/global_functions.h"
 
 namespace toposcope {
 namespace {

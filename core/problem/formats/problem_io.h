@@ -2,21 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "toposcope/labeling.h"
+#include "reading/problem_file.h"
 
 namespace toposcope {
-
-/// A labelling problem as a file holds it.
-struct ProblemFile {
-  LabelingProblem problem;
-  double top = std::numeric_limits<double>::infinity();  ///< a labelling that costs so much or more is no solution
-  bool maximize = false;                   ///< .cfn asks for the greatest value: costs are minus its values
-  std::vector<std::string> warnings = {};  ///< where the file contradicts itself and was read all the same
-};
 
 /// Reads .json (schemas/problem.schema.json), toulbar2's .cfn and .wcsp, and .uai with its evidence in <file>.evid.
 /// Variables of the last three may not be missing. The locale plays no role.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cfn_parameters.h"
+#include "formats/cfn_parameters.h"
 
 #include <map>
 #include <string_view>

@@ -9,8 +9,8 @@
 
 #include "base/errors.h"
 #include "base/nearest_name.h"
-#include "json_place.h"
-#include "problem_formats.h"
+#include "formats/json_place.h"
+#include "formats/problem_formats.h"
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope {

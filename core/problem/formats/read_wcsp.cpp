@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "global_functions.h"
-#include "problem_formats.h"
+#include "formats/problem_formats.h"
+#include "functions/global_functions.h"
 
 namespace toposcope {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "json_place.h"
+#include "formats/json_place.h"
 
 namespace toposcope {
 namespace {

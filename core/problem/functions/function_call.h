@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "global_costs.h"
-#include "global_functions.h"
+#include "functions/global_costs.h"
+#include "functions/global_functions.h"
 
 namespace toposcope::intension {
 

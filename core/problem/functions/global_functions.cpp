@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "global_functions.h"
+#include "functions/global_functions.h"
 
 #include <utility>
 
 #include "base/nearest_name.h"
-#include "function_families.h"
+#include "functions/function_families.h"
 
 namespace toposcope {
 namespace {
