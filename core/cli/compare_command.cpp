@@ -72,7 +72,7 @@ class Gallery {
     cards_.push_back({thumbnail_of(views.front().scene, context), ""});
     // Of one mesh, that on which labelers differ most: side by side on others they would look the same.
     std::set<std::vector<std::pair<std::string, Index>>> labellings;
-    for (const Entry& entry : comparison.entries) labellings.insert(entry.labelling);
+    for (const Entry& entry : comparison.entries) labellings.insert(entry.labeling);
     if (labellings.size() <= most_labellings_) return;
     most_labellings_ = labellings.size();
     views_ = std::move(views);

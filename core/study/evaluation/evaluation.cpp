@@ -48,7 +48,7 @@ class Evaluator {
     evaluation.name = item.name;
     evaluation.object = item.object;
     evaluation.variant = item.variant;
-    evaluation.expected_class = item.class_name;
+    if (const auto* file = std::get_if<MeshFile>(&item.source)) evaluation.expected_class = file->class_name;
     try {
       const KnownMesh known = load(item, host_, context);
       if (!model_.classes.empty() && evaluation.expected_class.empty())
