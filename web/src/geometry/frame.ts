@@ -2,7 +2,7 @@
 // From which side an object is first looked at.
 import { Vector3 } from 'three';
 import type { Axis } from '../data/directions';
-import type { Point } from '../data/scene';
+import type { Point } from '@schemas/scene';
 import { DepthImage, spread } from './depth_image';
 
 export interface Frame {
