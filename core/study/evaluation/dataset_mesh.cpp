@@ -72,16 +72,17 @@ KnownMesh made(const DatasetMesh& item, PluginHost& host, Context& context) {
   if (!item.scan) request.noise_rel = item.noise.value_or(0);
   Sample sample = item.scan ? scanned(request, item, host, context) : make_sample(request, context);
   Truth truth = truth_of(sample);
-  Mesh mesh = repaired_mesh(std::move(sample.mesh), item.name, &context).mesh;
+  auto [mesh, repair] = repaired_mesh(std::move(sample.mesh), item.name, &context);
   if (item.decimated) mesh = decimated(std::move(mesh), item, host, context);
-  return {std::move(mesh), std::move(truth)};
+  return {std::move(mesh), repair, std::move(truth)};
 }
 
 }  // namespace
 
 KnownMesh load(const DatasetMesh& item, PluginHost& host, Context& context) {
   if (item.file.empty()) return made(item, host, context);
-  KnownMesh known{read_repaired_mesh(item.file, &context).mesh, {}};
+  auto [mesh, repair] = read_repaired_mesh(item.file, &context);
+  KnownMesh known{std::move(mesh), repair};
   if (!item.truth.empty()) known.truth = read_truth(item.truth);
   return known;
 }
