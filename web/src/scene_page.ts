@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page of one mesh: the view, the way to it on the left, what was found on the right.
+import type { SceneDocument } from '@schemas/scene';
 import { Scene } from './data/decoded';
 import { Marking } from './data/marking';
-import type { SceneDocument } from '@schemas/scene';
 import { firstView } from './geometry/frame';
 import { initialState, STAGES, Store, type State } from './state';
 import { announce, download, h } from './ui/dom';

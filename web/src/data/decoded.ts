@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scene document with its buffers read, as the views take it.
-import { floats, indices } from './buffers';
-import { directions, type Axis } from './directions';
 import type { Feature, ResultDocument } from '@schemas/result';
 import type { Candidate, Drawing, Point, SceneDocument } from '@schemas/scene';
+import { floats, indices } from './buffers';
+import { directions, type Axis } from './directions';
 import { marksOfTruth, type Marks } from './truth';
 
 export interface SurfaceData {

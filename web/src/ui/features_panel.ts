@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+import type { FoundFeature, MissingFeature, Parameters } from '@schemas/result';
 import { nearestCandidate } from '../view/compose';
 import { figure, plural, probability, vector } from '../data/numbers';
-import type { FoundFeature, MissingFeature, Parameters } from '@schemas/result';
 import type { NamedFeature, Scene } from '../data/decoded';
 import type { Store } from '../state';
 import { probabilityBar, residualText } from './bars';

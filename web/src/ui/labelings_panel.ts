@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-import { figure } from '../data/numbers';
 import type { Alternative } from '@schemas/result';
+import { figure } from '../data/numbers';
 import type { Scene } from '../data/decoded';
 import type { Store } from '../state';
 import { probabilityBar } from './bars';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-import { probability } from '../data/numbers';
 import type { Relation } from '@schemas/result';
+import { probability } from '../data/numbers';
 import type { Scene } from '../data/decoded';
 import type { Store } from '../state';
 import { residualBar, residualText } from './bars';

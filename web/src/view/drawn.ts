@@ -4,8 +4,8 @@ import { BufferAttribute, BufferGeometry, Color, DoubleSide, GreaterDepth, Group
 import { Line2 } from 'three/addons/lines/Line2.js';
 import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
-import { floats, indices } from '../data/buffers';
 import type { Drawing, Point } from '@schemas/scene';
+import { floats, indices } from '../data/buffers';
 
 export interface Style {
   color: string;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The colour of each triangle in each stage.
-import type { Scene, SurfaceData } from '../data/decoded';
 import type { Candidate } from '@schemas/scene';
+import type { Scene, SurfaceData } from '../data/decoded';
 import type { State } from '../state';
 
 export type Rgb = [number, number, number];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a click on the surface means in each stage.
-import { count, plural } from '../data/numbers';
 import type { Point } from '@schemas/scene';
+import { count, plural } from '../data/numbers';
 import type { Scene } from '../data/decoded';
 import type { Marking } from '../data/marking';
 import type { State } from '../state';
