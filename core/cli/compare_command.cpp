@@ -101,13 +101,14 @@ int compare(const CompareOptions& options) {
   Gallery gallery;
   const bool text = !options.json && !options.csv && !options.markdown;
   const int code = for_each_mesh(options.meshes, session, [&](const fs::path& path) {
-    const Mesh mesh = session.read(path).mesh;
+    const RepairedMesh input = session.read(path);
     const fs::path truth_file = truth_beside(path);
     std::optional<Truth> truth;
     if (!truth_file.empty()) truth = read_truth(truth_file);
-    Analysis analysis = construct(mesh, model, stations, session.context());
+    Analysis analysis = construct(input.mesh, model, stations, session.context());
     std::vector<LabelerView> views;
-    const auto look = [&](const Contender& contender, const Analysis& labelled, const Result& result) {
+    const auto look = [&](const Contender& contender, const Analysis& labelled, Result result) {
+      result.repair = input.repair;
       views.push_back({contender.name, make_scene(labelled, model, result, truth ? &*truth : nullptr, found_alone)});
     };
     comparisons.push_back(toposcope::compare(analysis, model, stations, path.string(), contenders, request,

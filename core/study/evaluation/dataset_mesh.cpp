@@ -21,9 +21,9 @@ Mesh decimated(Mesh mesh, Index faces, const std::string& name, PluginHost& host
 KnownMesh make(const MadeMesh& source, const std::string& name, PluginHost& host, Context& context) {
   Sample sample = source.scan ? scan(make_scan_target(source.object, context), *source.scan, host, context)
                               : make_sample(source.object, context);
-  Mesh mesh = repaired_mesh(std::move(sample.mesh), name, &context).mesh;
+  auto [mesh, repair] = repaired_mesh(std::move(sample.mesh), name, &context);
   if (source.decimate_to > 0) mesh = decimated(std::move(mesh), source.decimate_to, name, host, context);
-  return {std::move(mesh), std::move(sample.truth)};
+  return {std::move(mesh), repair, std::move(sample.truth)};
 }
 
 }  // namespace
@@ -31,7 +31,8 @@ KnownMesh make(const MadeMesh& source, const std::string& name, PluginHost& host
 KnownMesh load(const DatasetMesh& item, PluginHost& host, Context& context) {
   if (const auto* source = std::get_if<MadeMesh>(&item.source)) return make(*source, item.name, host, context);
   const auto& file = std::get<MeshFile>(item.source);
-  KnownMesh known{read_repaired_mesh(file.path, &context).mesh, {}};
+  auto [mesh, repair] = read_repaired_mesh(file.path, &context);
+  KnownMesh known{std::move(mesh), repair};
   if (!file.truth.empty()) known.truth = read_truth(file.truth);
   return known;
 }

@@ -141,6 +141,13 @@ TEST(Scene, RefusesWhatIsNone) {
   broken = json::parse(tee.text);
   broken.erase("found");
   EXPECT_NE(test::schema_faults("scene", broken.dump()), "");
+  broken = json::parse(tee.text);
+  broken["result"]["status"] = "perhaps";
+  EXPECT_NE(test::schema_faults("scene", broken.dump()), "");
+  broken = json::parse(tee.text);
+  broken["working_sets"][0].erase("saliency");
+  EXPECT_NE(test::schema_faults("scene", broken.dump()), "");
+  EXPECT_THROW(read_scene(broken.dump(), "x.json"), UsageError);
 }
 
 }  // namespace

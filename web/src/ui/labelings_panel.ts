@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+import type { Alternative } from '@schemas/result';
 import { figure } from '../data/numbers';
-import type { Alternative } from '../data/scene';
 import type { Scene } from '../data/decoded';
 import type { Store } from '../state';
 import { probabilityBar } from './bars';
@@ -18,23 +18,23 @@ export function differences(scene: Scene, alternative: Alternative): string {
   return texts.length > 0 ? texts.join(', ') : 'the same candidates';
 }
 
-export function labellingsPanel(scene: Scene, store: Store): HTMLElement | null {
+export function labelingsPanel(scene: Scene, store: Store): HTMLElement | null {
   const { alternatives, guarantee, optimal, probabilities, log_evidence } = scene.result;
   const rest = alternatives.reduce((sum, each) => sum + (each.probability ?? 0), 0);
   const row = (index: number, title: string, text: string, side: Node | null): HTMLElement =>
     h(
-      'li', { class: `item${store.state.labelling === index ? ' selected' : ''}` },
+      'li', { class: `item${store.state.labeling === index ? ' selected' : ''}` },
       h(
         'button', {
-          class: 'row', 'aria-pressed': store.state.labelling === index ? 'true' : 'false', 'data-key': `labelling:${index}`,
-          onclick: () => store.set({ labelling: index, stage: 'found', feature: null, relation: null, face: null }),
+          class: 'row', 'aria-pressed': store.state.labeling === index ? 'true' : 'false', 'data-key': `labeling:${index}`,
+          onclick: () => store.set({ labeling: index, stage: 'found', feature: null, relation: null, face: null }),
         },
         h('span', { class: 'name' }, title, h('small', {}, text)), side,
       ),
     );
   return h(
-    'section', { class: 'panel', 'aria-labelledby': 'labellings-title' },
-    h('h2', { id: 'labellings-title' }, 'Labellings', h('small', {}, alternatives.length > 0 ? `${alternatives.length} next best` : 'no alternatives')),
+    'section', { class: 'panel', 'aria-labelledby': 'labelings-title' },
+    h('h2', { id: 'labelings-title' }, 'Labellings', h('small', {}, alternatives.length > 0 ? `${alternatives.length} next best` : 'no alternatives')),
     h(
       'ul', { class: 'list compact' },
       row(0, 'Best', optimal ? guarantee : `${guarantee}; not proven best`, null),
