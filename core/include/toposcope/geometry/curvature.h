@@ -34,14 +34,13 @@ struct ShapeOperators {
 };
 
 /// Unit vectors that make a right-handed frame with a unit normal; a function of the normal alone
-/// (Duff et al., Building an orthonormal basis, revisited, JCGT 2017).
+/// [Duff2017].
 struct TangentFrame {
   Vec3 u, v;
 };
 TangentFrame tangent_frame(const Vec3& normal);
 
-/// Unit vertex normals, exact on spheres (Max, Weights for computing vertex normals from facet normals, JGT 1999); zero
-/// at a vertex without faces.
+/// Unit vertex normals, exact on spheres [Max1999]; zero at a vertex without faces.
 std::vector<Vec3> vertex_normals(const MeshView& mesh, Context& context);
 
 /// Least-squares quadric (with constant and linear terms) around each vertex over the vertices that a walk along edges
@@ -72,8 +71,7 @@ Curvature principal_curvatures(const ShapeOperators& operators);
 /// along edges reaches within `reach` mean edges, weighted by area and by 1 - (distance / radius)^2, so that nothing
 /// hangs on which vertices lie just within. Against the normal where the surface is convex: radius / (6 R) on a sphere
 /// of radius R; 16 / (15 pi) = 0.34 at the edge of a thin sheet, which has no curvature to speak of and no one normal;
-/// 0.24 at a right-angled edge (Clarenz, Rumpf and Telea, Robust feature detection and local classification for
-/// surfaces based on moment analysis, TVCG 2004).
+/// 0.24 at a right-angled edge [Clarenz2004].
 std::vector<Vec3> first_moments(const MeshView& mesh, double reach, Context& context);
 
 /// \}
@@ -100,7 +98,7 @@ int rings_within(const MeshView& mesh, double radius);
 
 /// Mean curvature integrated over the surface that each vertex stands for, length; convex is positive. A quarter of
 /// length times dihedral angle of each edge at the vertex: half of what the edge has, which its ends share
-/// (Cohen-Steiner and Morvan, Restricted Delaunay triangulations and normal cycle, SoCG 2003). Edges without two faces
+/// [CohenSteiner2003]. Edges without two faces
 /// that run along them in opposite directions have none.
 std::vector<double> mean_curvature_measure(const MeshView& mesh);
 
