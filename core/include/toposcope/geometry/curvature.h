@@ -83,7 +83,7 @@ std::vector<Vec3> first_moments(const MeshView& mesh, double reach, Context& con
 std::vector<Vec3> plane_fit_normals(const MeshView& mesh, Context& context);
 
 /// The extreme turnings of the normal from each vertex p to the vertices q within `rings` edges:
-/// |n_p - n_q| / |p - q|, positive where (n_p - n_q) . (p - q) >= 0 (Itter and Jain, dissertation 4.2; the sign: the
+/// |n_p - n_q| / |p - q|, positive where (n_p - n_q) . (p - q) >= 0 ([Itter1985], dissertation 4.2; the sign: the
 /// dissertation's own test depends on the unit of length).
 /// Overestimates on coarse, irregular or noisy meshes: an extreme over many pairs takes the worst of their errors.
 Curvature turning_curvature(const MeshView& mesh, const std::vector<Vec3>& normals, int rings, Context& context);

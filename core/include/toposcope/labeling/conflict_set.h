@@ -36,9 +36,9 @@ struct ConflictSet {
 };
 
 /// The smallest conflicting set, by implicit hitting sets: a set of items that hits the complement of every set that
-/// can be met is tried; where it can be met, what cannot be added to it is one more complement to hit (Ignatiev,
-/// Previti, Liffiton and Marques-Silva 2015). Values of infinite cost are out beforehand: where no item is needed the
-/// set is empty. A constraint is not blamed for candidates that exclude each other (`allowed_apart`).
+/// can be met is tried; where it can be met, what cannot be added to it is one more complement to hit [Ignatiev2015].
+/// Values of infinite cost are out beforehand: where no item is needed the set is empty. A constraint is not blamed for
+/// candidates that exclude each other (`allowed_apart`).
 ///
 /// \pre `check(problem)`
 ConflictSet smallest_conflict(const LabelingProblem& problem, const ConflictQuestion& question, Deadline& deadline);
