@@ -11,8 +11,8 @@ namespace toposcope {
 
 /// Principal curvatures per vertex, 1 / mesh unit; convex is positive (the surface bends away from its normal).
 struct Curvature {
-  std::vector<double> maximum;
-  std::vector<double> minimum;
+  std::vector<double> maximum;  ///< the larger, by vertex
+  std::vector<double> minimum;  ///< the smaller, by vertex
 };
 
 /// \name The estimate for any mesh
@@ -24,19 +24,21 @@ struct Curvature {
 /// The second fundamental form at a vertex in the tangent frame of its normal (tangent_frame):
 /// [mean + deviator_x, deviator_y; deviator_y, mean - deviator_x], 1 / mesh unit.
 struct ShapeOperator {
-  double mean = 0;                        ///< mean curvature
-  double deviator_x = 0, deviator_y = 0;  ///< of length (maximum - minimum) / 2
+  double mean = 0;        ///< mean curvature
+  double deviator_x = 0;  ///< with deviator_y a vector of length (maximum - minimum) / 2
+  double deviator_y = 0;  ///< see deviator_x
 };
 
+/// The shape operators of a mesh.
 struct ShapeOperators {
-  std::vector<Vec3> normals;  ///< unit; zero at a vertex without faces
-  std::vector<ShapeOperator> at;
+  std::vector<Vec3> normals;      ///< unit; zero at a vertex without faces
+  std::vector<ShapeOperator> at;  ///< by vertex
 };
 
-/// Unit vectors that make a right-handed frame with a unit normal; a function of the normal alone
-/// [Duff2017].
+/// Unit vectors that make a right-handed frame with a unit normal; a function of the normal alone [Duff2017].
 struct TangentFrame {
-  Vec3 u, v;
+  Vec3 u;  ///< square to the normal
+  Vec3 v;  ///< the normal times u
 };
 TangentFrame tangent_frame(const Vec3& normal);
 
@@ -59,7 +61,8 @@ int diffusion_passes(const MeshView& mesh, double deviation, int least);
 
 /// Eigenvalues of an operator.
 struct PrincipalCurvatures {
-  double maximum, minimum;
+  double maximum;  ///< 1 / mesh unit
+  double minimum;  ///< 1 / mesh unit
 };
 inline PrincipalCurvatures principal_curvatures(const ShapeOperator& at) {
   const double half = std::sqrt(at.deviator_x * at.deviator_x + at.deviator_y * at.deviator_y);
