@@ -8,8 +8,7 @@
 
 #include "base/errors.h"
 #include "commands.h"
-#include "pipeline/labeling_problem.h"
-#include "plugin/guard.h"
+#include "pipeline/solve.h"
 #include "problem_io.h"
 #include "session.h"
 #include "toposcope/labeling/tools.h"
@@ -139,24 +138,18 @@ int label(const LabelOptions& options) {
     for (const std::string& note : write_problem(options.save, file))
       session.context().log(LogLevel::info, options.save.string() + ": " + note);
   const std::string id = options.labeler.empty() ? "least-error" : options.labeler;
-  const auto solve = [&](const Labeler& labeler, const std::string& plugin) {
-    LabelingOutcome outcome = guard(plugin, [&] {
-      return labeler.solve(problem,
-                           {.k_best = options.k_best, .time_limit_s = options.time_limit_s, .within = options.within},
-                           session.context());
-    });
-    check_outcome(problem, outcome, plugin);
-    return outcome;
-  };
-  const auto labeler = make_labeler(options, id, session.host());
+  const LabelingRequest request{
+      .k_best = options.k_best, .time_limit_s = options.time_limit_s, .within = options.within};
+  const LabelerStation labeler{id, make_labeler(options, id, session.host())};
   const auto start = std::chrono::steady_clock::now();
-  LabelingOutcome outcome = solve(*labeler, id);
+  LabelingOutcome outcome = solve(labeler, problem, request, session.context());
   const double time_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   cut_at_top(outcome, file.top);
   if (options.marginals && outcome.posteriors.empty()) {
     const PluginManifest& plugin = session.host().catalog().require(PluginKind::labelers, "posterior", "--marginals");
-    const LabelingOutcome sums =
-        solve(*session.host().labeler(plugin.id, check_options(plugin.options, {}, plugin.id)), plugin.id);
+    const LabelerStation summing{plugin.id,
+                                 session.host().labeler(plugin.id, check_options(plugin.options, {}, plugin.id))};
+    const LabelingOutcome sums = solve(summing, problem, request, session.context());
     outcome.posteriors = sums.posteriors;
     outcome.log_evidence = sums.log_evidence;
     outcome.facts.push_back({"probabilities", sums.guarantee});

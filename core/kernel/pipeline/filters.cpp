@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "plugin/guard.h"
+#include "plugin/plugin_host.h"
 
 namespace toposcope {
 namespace {
@@ -23,12 +23,23 @@ class SoupSink final : public MeshSink {
 
 }  // namespace
 
-PreparedMesh apply_filters(const Mesh& mesh, std::span<const Stations::Filter> filters, Context& context) {
+FilterStation make_filter(PluginHost& host, std::string_view id, std::span<const GivenOption> given,
+                          const std::string& owner) {
+  const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id, owner);
+  return make_filter(host, id, check_options(manifest.options, given, owner + ": filter '" + manifest.id + "'"));
+}
+
+FilterStation make_filter(PluginHost& host, std::string_view id, const std::vector<OptionValue>& options) {
+  const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id);
+  return {manifest.id, host.filter(id, options), use_of(manifest, options)};
+}
+
+PreparedMesh apply_filters(const Mesh& mesh, std::span<const FilterStation> filters, Context& context) {
   PreparedMesh prepared;
   prepared.input = &mesh;
   prepared.origin.resize(mesh.view().face_count());
   std::iota(prepared.origin.begin(), prepared.origin.end(), 0);
-  for (const Stations::Filter& station : filters) {
+  for (const FilterStation& station : filters) {
     SoupSink sink;
     const Index faces = prepared.view().face_count();
     guard(station.id, [&] { station.plugin->apply(prepared.view(), context, sink); });

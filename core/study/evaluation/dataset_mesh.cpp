@@ -5,7 +5,6 @@
 
 #include "io/mesh_io.h"
 #include "pipeline/filters.h"
-#include "plugin/plugin_host.h"
 #include "sample/sample.h"
 #include "sample/scan.h"
 
@@ -53,10 +52,8 @@ Sample scanned(const SampleRequest& request, const DatasetMesh& item, PluginHost
 /// Of more faces than the object's own fine mesh is asked for, those that the quadric error keeps: long and thin along
 /// pipes, large on flats.
 Mesh decimated(Mesh mesh, const DatasetMesh& item, PluginHost& host, Context& context) {
-  const PluginManifest& manifest = host.catalog().require(PluginKind::filters, "decimate", item.name);
   const GivenOption given[] = {{"faces", std::to_string(item.faces)}};
-  const Stations::Filter filter{
-      manifest.id, host.filter(manifest.id, check_options(manifest.options, given, item.name + ": filter 'decimate'"))};
+  const FilterStation filter = make_filter(host, "decimate", given, item.name);
   PreparedMesh prepared = apply_filters(mesh, {&filter, 1}, context);
   return prepared.filtered ? std::move(*prepared.filtered) : std::move(mesh);
 }

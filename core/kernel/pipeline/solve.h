@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "pipeline/stations.h"
+#include "toposcope/labeling.h"
+
+namespace toposcope {
+
+/// Solves a labelling problem and checks the outcome. \throw PluginError  the labeler threw, or check_outcome did
+LabelingOutcome solve(const LabelerStation& labeler, const LabelingProblem& problem, const LabelingRequest& request,
+                      Context& context);
+
+/// Refuses an outcome that breaks the labelers' contract: no labelling, values out of range, two features that share a
+/// vertex, a bound above a labelling's cost, posteriors of the wrong size or that do not sum to 1. \throw PluginError
+void check_outcome(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& plugin);
+
+}  // namespace toposcope
