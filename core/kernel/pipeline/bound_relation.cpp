@@ -65,7 +65,7 @@ RelationResult BoundRelation::test(std::span<const ConstructedFeature* const> fe
   const MeshView& mesh = run_->mesh;
   operands.clear();
   for (const ConstructedFeature* feature : features)
-    operands.push_back({&feature->shape, feature->points, feature->box});
+    operands.push_back({&feature->shape, feature->points, feature->box, feature->vertices});
   RelationResult result =
       station().tester->test({operands, mesh.box, mesh.mean_edge, &mesh}, Options(arguments_), run_->context);
   if (tolerance_) result.tolerance = *tolerance_;

@@ -148,6 +148,7 @@ class Chooser {
     made.shape = fits_.shapes[g];
     points_.gather(run_.mesh, sets_, fits_.groups[g]);
     made.points = points_.points;
+    made.vertices = points_.vertices;
     made.box = fits_.groups.arity() == 1 ? fits_.boxes[g] : oriented_box(made.points);
     return constructed_[g];
   }

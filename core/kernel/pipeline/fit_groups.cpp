@@ -89,8 +89,16 @@ class GroupFitter {
     if (!wanted) return;
     if (!joint_box) points_.gather(mesh, sets_, group);
     if (!joint_box && group.size() > 1) box = principal_box(points_.points);
-    const FitInput input{points_.points, points_.areas,  points_.offsets, set_boxes_, box,
-                         mesh.box,       mesh.mean_edge, points_.bends};
+    const FitInput input{points_.points,
+                         points_.areas,
+                         points_.offsets,
+                         set_boxes_,
+                         box,
+                         mesh.box,
+                         mesh.mean_edge,
+                         points_.integrated_mean_curvature,
+                         &mesh,
+                         points_.vertices};
     fits_.shapes[g] = station_.fitter->fit(input, Options(station_.arguments), run_.context);
     for (std::size_t i = 0; i < job_.features.size(); ++i)
       if (GroupStatus& status = fits_.status[i][g]; status == GroupStatus::fitted)

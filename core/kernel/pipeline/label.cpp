@@ -54,8 +54,7 @@ SolveTimes solve_class(ClassOutcome& posed, const ModelRun& run, const LabelingR
     LabelingRequest sums = request;
     sums.k_best = 1;
     LabelingOutcome marginals = solve(*stations.marginals, posed.problem, sums, run.context);
-    outcome.posteriors = std::move(marginals.posteriors);
-    outcome.log_evidence = marginals.log_evidence;
+    take_sums(marginals, outcome);
     made = stations.marginals->id + ": " + marginals.guarantee;
     times.marginals_ms = watch.lap_ms();
   }

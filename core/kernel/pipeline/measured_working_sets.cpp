@@ -73,6 +73,6 @@ MeasuredWorkingSets::MeasuredWorkingSets(WorkingSets sets, const ModelRun& run)
       overlap(overlaps(*this, run.mesh.vertex_count())),
       boxes(boxes_of(*this, run)),
       vertex_areas(areas_of(run.mesh)),
-      vertex_bends(mean_curvature_measure(run.mesh)) {}
+      integrated_mean_curvature(mean_curvature_measure(run.mesh)) {}
 
 }  // namespace toposcope

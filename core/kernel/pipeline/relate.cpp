@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
+#include "base/errors.h"
 #include "pipeline/relation_table.h"
 #include "probability/likelihood.h"
 
@@ -44,6 +46,17 @@ bool same_candidates(const LabelingProblem& problem, const std::vector<Index>& s
                     [&](Index v, Index w) { return problem.variables[v].candidates == other.variables[w].candidates; });
 }
 
+/// Adds the bytes of a relationship's tables to those that are taken.
+void take_memory(const Relationship& relationship, const LabelingProblem& problem, const Context& context,
+                 std::uint64_t& taken) {
+  taken += table_size(relationship, problem) * (sizeof(double) + sizeof(float));
+  if (taken > context.memory_budget())
+    throw UsageError(relationship.where.str() + ": with relationship '" + relationship.name +
+                     "' the tables of this model would need " + std::to_string(taken) +
+                     " bytes, and this run may take " + std::to_string(context.memory_budget()) +
+                     "; lower probability.max_candidates");
+}
+
 }  // namespace
 
 LabelingProblem relate(const ModelRun& run, const MeasuredWorkingSets& sets, const ConstructedFeatures& features,
@@ -57,9 +70,11 @@ LabelingProblem relate(const ModelRun& run, const MeasuredWorkingSets& sets, con
   problem.conflict_bits = std::move(conflicts_of(features.all, sets.overlap).bits);
 
   std::vector<BoundRelation> relations;
+  std::uint64_t taken = 0;  // bytes in tables
   for (Index r = 0; r < model.relationships.size(); ++r) {
     const std::vector<Index>& scope = model.relationships[r].features;
     relations.emplace_back(run, r);
+    take_memory(model.relationships[r], problem, run.context, taken);
     if (known && same_candidates(problem, scope, *known, scope)) {
       problem.constraints.push_back(known->constraints[r]);
       continue;

@@ -15,23 +15,6 @@ namespace {
 constexpr std::size_t max_table = 16'000'000;
 constexpr std::size_t grain = 16;
 
-LabelingConstraint empty_constraint(const Relationship& relationship, const LabelingProblem& problem) {
-  LabelingConstraint constraint;
-  constraint.name = relationship.name;
-  constraint.scope = relationship.features;
-  std::size_t size = 1;
-  for (Index v : constraint.scope) {
-    size *= problem.variables[v].domain();
-    if (size > max_table)
-      throw UsageError(relationship.where.str() + ": relationship '" + relationship.name +
-                       "' would need a table of over " + std::to_string(max_table) +
-                       " entries; lower probability.max_candidates");
-  }
-  constraint.costs.assign(size, 0);
-  constraint.violations.assign(size, 0);
-  return constraint;
-}
-
 /// Fills a relationship's tables: one row of work per combination of all but the last variable. Where the first two
 /// features have the same candidates and their order does not matter, each pair of candidates is tested once.
 class TableFiller {
@@ -134,9 +117,23 @@ class TableFiller {
 
 }  // namespace
 
+std::size_t table_size(const Relationship& relationship, const LabelingProblem& problem) {
+  std::size_t size = 1;
+  for (Index v : relationship.features) {
+    size *= problem.variables[v].domain();
+    if (size > max_table)
+      throw UsageError(relationship.where.str() + ": relationship '" + relationship.name +
+                       "' would need a table of over " + std::to_string(max_table) +
+                       " entries; lower probability.max_candidates");
+  }
+  return size;
+}
+
 LabelingConstraint relation_table(const BoundRelation& relation, const LabelingProblem& problem,
                                   const ConstructedFeatures& features) {
-  LabelingConstraint constraint = empty_constraint(relation.relationship(), problem);
+  const std::size_t size = table_size(relation.relationship(), problem);
+  LabelingConstraint constraint{relation.relationship().name, relation.relationship().features,
+                                std::vector<double>(size, 0), std::vector<float>(size, 0)};
   guard(relation.relationship().plugin, [&] { TableFiller(relation, problem, features, constraint).fill(); });
   return constraint;
 }

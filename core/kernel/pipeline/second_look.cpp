@@ -91,7 +91,10 @@ class Look {
   ConstructedFeature box_of(std::span<const Index> group) const {
     ConstructedFeature box;
     for (const Index s : group)
-      for (const Index v : sets_[s]) box.points.push_back(run_.mesh.positions[v]);
+      for (const Index v : sets_[s]) {
+        box.points.push_back(run_.mesh.positions[v]);
+        box.vertices.push_back(v);
+      }
     box.box = principal_box(box.points);
     box.shape.orientation = orientation_;
     box.shape.direction = box.box.axes[orientation_ == Orientation::line_like ? 0 : 2];

@@ -2,6 +2,7 @@
 #include "pipeline/solve.h"
 
 #include <cmath>
+#include <utility>
 
 #include "plugin/guard.h"
 #include "toposcope/labeling/tools.h"
@@ -38,6 +39,13 @@ void check_bound(const LabelingProblem& problem, const LabelingOutcome& outcome,
   }
 }
 
+void check_exactness(const LabelingOutcome& outcome, const std::string& plugin) {
+  if (std::isnan(outcome.log_evidence) != (outcome.evidence_exactness == Exactness::none))
+    throw PluginError(plugin, "does not say whether its evidence is exact, or says it of none");
+  if (outcome.posteriors.empty() != (outcome.posterior_exactness == Exactness::none))
+    throw PluginError(plugin, "does not say whether its posteriors are exact, or says it of none");
+}
+
 void check_posteriors(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& plugin) {
   if (outcome.posteriors.empty()) return;
   bool sized = outcome.posteriors.size() == problem.variables.size();
@@ -67,9 +75,19 @@ LabelingOutcome solve(const LabelerStation& labeler, const LabelingProblem& prob
   return outcome;
 }
 
+void take_sums(LabelingOutcome& from, LabelingOutcome& to) {
+  to.log_evidence = from.log_evidence;
+  to.evidence_exactness = from.evidence_exactness;
+  to.evidence_error = from.evidence_error;
+  to.posteriors = std::move(from.posteriors);
+  to.posterior_exactness = from.posterior_exactness;
+  to.posterior_error = from.posterior_error;
+}
+
 void check_outcome(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& plugin) {
   check_labelings(problem, outcome, plugin);
   check_bound(problem, outcome, plugin);
+  check_exactness(outcome, plugin);
   check_posteriors(problem, outcome, plugin);
 }
 

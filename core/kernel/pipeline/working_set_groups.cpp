@@ -54,14 +54,16 @@ void WorkingSetGroups::keep(const std::vector<std::size_t>& groups) {
 
 void GroupPoints::gather(const MeshView& mesh, const MeasuredWorkingSets& sets, std::span<const Index> group) {
   points.clear();
+  vertices.clear();
   areas.clear();
-  bends.clear();
+  integrated_mean_curvature.clear();
   offsets.assign(1, 0);
   for (Index s : group) {
+    vertices.insert(vertices.end(), sets[s].begin(), sets[s].end());
     for (Index v : sets[s]) {
       points.push_back(mesh.positions[v]);
       areas.push_back(sets.vertex_areas[v]);
-      bends.push_back(sets.vertex_bends[v]);
+      integrated_mean_curvature.push_back(sets.integrated_mean_curvature[v]);
     }
     offsets.push_back(static_cast<Index>(points.size()));
   }

@@ -42,7 +42,8 @@ class WorkingSetGroups {
 /// The points of a group of working sets, one set after the other.
 struct GroupPoints {
   std::vector<Vec3> points;
-  std::vector<double> areas, bends;
+  std::vector<Index> vertices;
+  std::vector<double> areas, integrated_mean_curvature;
   std::vector<Index> offsets;
 
   void gather(const MeshView& mesh, const MeasuredWorkingSets& sets, std::span<const Index> group);

@@ -95,7 +95,8 @@ class Judge {
       judged.excess = judged.distance / (limits_.ends_diagonal * scale_.diagonal);
       return;
     }
-    const std::vector<Vec3> marks = truth.band ? in_band(truth.points, *truth.band, shape) : truth.points;
+    const std::optional<TruthBand> band = truth.band();
+    const std::vector<Vec3> marks = band ? in_band(truth.points, *band, shape) : truth.points;
     judged.distance = mean_distance(marks, shape, fitter);
     if (shape.parameter("endpoints"))
       judged.excess =

@@ -29,6 +29,7 @@ struct Contract : ::testing::Test {
     outcome.labelings = {{{0, 0}, 1}, {{1, 0}, 2}};
     outcome.lower_bound = 1;
     outcome.posteriors = {{0.5, 0.25, 0.25}, {1, 0}};
+    outcome.posterior_exactness = Exactness::exact;
   }
   std::string refusal() const {
     try {
@@ -46,7 +47,40 @@ TEST_F(Contract, KeptIsNotRefused) {
   EXPECT_EQ(refusal(), "");
   outcome.lower_bound = -forbidden;
   outcome.posteriors.clear();
+  outcome.posterior_exactness = Exactness::none;
   EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(Contract, SumsSayWhetherTheyAreExact) {
+  outcome.posterior_exactness = Exactness::none;
+  EXPECT_THAT(refusal(), HasSubstr("posteriors"));
+  outcome.posterior_exactness = Exactness::approximate;
+  EXPECT_EQ(refusal(), "");
+  outcome.log_evidence = -1;
+  EXPECT_THAT(refusal(), HasSubstr("evidence"));
+  outcome.evidence_exactness = Exactness::bound;
+  EXPECT_EQ(refusal(), "");
+  outcome.log_evidence = none;
+  EXPECT_THAT(refusal(), HasSubstr("evidence"));
+}
+
+TEST_F(Contract, SumsAreTakenWithWhatIsPromisedOfThem) {
+  LabelingOutcome sums;
+  sums.posteriors = {{0.25, 0.5, 0.25}, {0, 1}};
+  sums.posterior_exactness = Exactness::bound;
+  sums.posterior_error = 1e-3;
+  sums.log_evidence = -2;
+  sums.evidence_exactness = Exactness::approximate;
+  sums.evidence_error = 0.5;
+  take_sums(sums, outcome);
+  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(outcome.posteriors[1][1], 1);
+  EXPECT_EQ(outcome.posterior_exactness, Exactness::bound);
+  EXPECT_EQ(outcome.posterior_error, 1e-3);
+  EXPECT_EQ(outcome.log_evidence, -2);
+  EXPECT_EQ(outcome.evidence_exactness, Exactness::approximate);
+  EXPECT_EQ(outcome.evidence_error, 0.5);
+  EXPECT_EQ(outcome.labelings.size(), 2U) << "and nothing else";
 }
 
 TEST_F(Contract, ABoundAboveACost) {
