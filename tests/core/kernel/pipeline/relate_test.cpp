@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/errors.h"
+#include "base/run_context.h"
 #include "core/kernel/pipeline/hand_made_run.h"
 #include "probability/likelihood.h"
 #include "toposcope/labeling/tools.h"
@@ -117,6 +118,23 @@ TEST_F(Relate, WhatIsKnownIsNotTestedAgain) {
   features.of_feature[1].evidence.pop_back();
   EXPECT_EQ(problem(&first).constraints[0].costs.size(), 12U);
   EXPECT_EQ(tester->tests, 3 + 4) << "three rows for the bar and two for the rod, less two that exclude themselves";
+}
+
+/// Sixteen entries of a cost and a violation.
+TEST_F(Relate, TablesBeyondTheRunsMemoryAreRefused) {
+  const auto related = [&](std::uint64_t bytes) {
+    RunContext context({.memory_budget = bytes});
+    return relate({mesh.view(), model, stations, context}, sets, features);
+  };
+  EXPECT_NO_THROW(related(16 * 12));
+  try {
+    related(16 * 12 - 1);
+    FAIL() << "a byte too many";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), ::testing::AllOf(HasSubstr("'r1'"), HasSubstr("192"), HasSubstr("191")));
+  }
+  add_relationship(1, 0, tester);
+  EXPECT_THROW(related(2 * 16 * 12 - 1), UsageError) << "a table that is copied takes memory too";
 }
 
 TEST_F(Relate, ATableThatIsTooLargeIsRefused) {
