@@ -22,7 +22,7 @@ Analysis construct(const Mesh& mesh, const Model& model, const Stations& station
   analysis.mesh = apply_filters(mesh, stations.filters, context);
   lap("filter");
   const ModelRun run{analysis.mesh.view(), model, stations, context};
-  analysis.sets = MeasuredWorkingSets(classify_mesh(run.mesh, stations.worksets, context), run);
+  analysis.sets = MeasuredWorkingSets(classify_mesh(run.mesh, stations.working_sets, context), run);
   lap("classify");
   analysis.features = construct_features(run, analysis.sets);
   lap("fit");

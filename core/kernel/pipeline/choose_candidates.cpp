@@ -36,10 +36,10 @@ void add(std::span<const GroupStatus> statuses, CandidateCount& count) {
 }
 
 /// Half of the greatest error that the model allows is a typical one; where it says nothing, the pipeline does.
-double fit_error_sd(const ModelFeature& feature, const MeshView& mesh, const Box& worksets,
+double fit_error_sd(const ModelFeature& feature, const MeshView& mesh, const Box& working_sets,
                     const ProbabilityModel& probability) {
   if (feature.max_fit_error)
-    return positive_on_mesh(*feature.max_fit_error, {mesh.box, worksets}, feature.where, "max_fit_error") / 2;
+    return positive_on_mesh(*feature.max_fit_error, {mesh.box, working_sets}, feature.where, "max_fit_error") / 2;
   return probability.fit_error_scale * mesh.mean_edge;
 }
 

@@ -24,8 +24,8 @@ FilterStation make_filter(PluginHost& host, std::string_view id, const std::vect
 /// A mesh after the filters, and where its faces come from.
 struct PreparedMesh {
   const Mesh* input = nullptr;
-  std::optional<Mesh>
-      filtered;               ///< absent when no filter changed anything; its view's `input_vertices` are the input's
+  /// Absent when no filter changed anything; its view's `input_vertices` are the input's.
+  std::optional<Mesh> filtered;
   std::vector<Index> origin;  ///< per face of the filtered mesh, the triangle of the input
   const MeshView& view() const { return filtered ? filtered->view() : input->view(); }
 };

@@ -17,10 +17,10 @@ constexpr double near_violation = 2;    // in tolerances: a box tells centroid a
 constexpr std::size_t grain = 32;
 
 /// Which groups to fit for one feature.
-class Look {
+class SecondLook {
  public:
-  Look(const ModelRun& run, const MeasuredWorkingSets& sets, std::span<const std::optional<Index>> labelled,
-       const ConstructedFeatures& features, Index feature)
+  SecondLook(const ModelRun& run, const MeasuredWorkingSets& sets, std::span<const std::optional<Index>> labelled,
+             const ConstructedFeatures& features, Index feature)
       : run_(run), sets_(sets), labelled_(labelled), features_(features), feature_(feature) {
     for (Index r = 0; r < run.model.relationships.size(); ++r) {
       const std::vector<Index>& scope = run.model.relationships[r].features;
@@ -125,7 +125,7 @@ bool look_again(const ModelRun& run, const MeasuredWorkingSets& sets, std::span<
   for (Index f = 0; f < run.model.features.size(); ++f) {
     const ModelFeature& feature = run.model.features[f];
     if (feature.second_look.empty()) continue;
-    const Look look(run, sets, labelled, features, f);
+    const SecondLook look(run, sets, labelled, features, f);
     WorkingSetGroups groups(feature, feature.second_look, sets, look.free_sets());
     groups.keep(look.worth_a_fit(groups));
     construct_more(run, sets, f, std::move(groups), features);

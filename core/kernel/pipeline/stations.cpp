@@ -81,8 +81,8 @@ Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const
   }
 
   const PluginManifest& worksets = catalog.require(PluginKind::worksets, pipeline.worksets.plugin);
-  stations.worksets = {worksets.id, {}, host.worksets(worksets.id, pipeline.worksets.options)};
-  for (const ProvidedRow& type : worksets.provides) stations.worksets.types.push_back(type.name);
+  stations.working_sets = {worksets.id, {}, host.worksets(worksets.id, pipeline.worksets.options)};
+  for (const ProvidedRow& type : worksets.provides) stations.working_sets.types.push_back(type.name);
   stations.uses.push_back(use_of(worksets, pipeline.worksets.options));
 
   SharedPlugins plugins(host, pipeline, stations.uses);

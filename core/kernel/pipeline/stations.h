@@ -65,7 +65,7 @@ struct LabelerStation {
 /// The plugins that serve a model's run, created with their options.
 struct Stations {
   std::vector<FilterStation> filters;
-  WorkingSetStation worksets;
+  WorkingSetStation working_sets;
   std::vector<FeatureStation> features;            ///< one per model feature; the same shape is the same object
   std::vector<RelationshipStation> relationships;  ///< one per model relationship; likewise
   LabelerStation labeler;
