@@ -6,7 +6,7 @@
 
 #include "mesh/gluing.h"
 #include "mesh/mesh.h"
-#include "mesh/repair.h"
+#include "mesh/repair_report.h"
 
 namespace toposcope {
 

@@ -111,12 +111,6 @@ void count_topology(const TriangleSoup& soup, const Gluing& gluing, const Compon
 
 }  // namespace
 
-bool RepairReport::changed() const {
-  return merged_vertices + unreferenced_vertices + non_finite_vertices + non_finite_faces + degenerate_faces +
-             duplicate_faces + split_edges + isolated_faces + split_vertices + turned_faces + cut_edges >
-         0;
-}
-
 RepairReport repair(TriangleSoup& soup, const std::string& name) {
   RepairReport report;
   auto [first, welded, gluing] = clean(soup, name, report);

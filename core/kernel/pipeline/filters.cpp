@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "plugin/plugin_host.h"
+#include "plugin/guard.h"
 
 namespace toposcope {
 namespace {
@@ -39,17 +39,6 @@ void carry_on(TriangleSoup& soup, const MeshView& input, const std::string& filt
 }
 
 }  // namespace
-
-FilterStation make_filter(PluginHost& host, std::string_view id, std::span<const GivenOption> given,
-                          const std::string& owner) {
-  const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id, owner);
-  return make_filter(host, id, check_options(manifest.options, given, owner + ": filter '" + manifest.id + "'"));
-}
-
-FilterStation make_filter(PluginHost& host, std::string_view id, const std::vector<OptionValue>& options) {
-  const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id);
-  return {manifest.id, host.filter(id, options), use_of(manifest, options)};
-}
 
 PreparedMesh apply_filters(const Mesh& mesh, std::span<const FilterStation> filters, Context& context) {
   PreparedMesh prepared;

@@ -3,23 +3,12 @@
 
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "mesh/mesh.h"
 #include "pipeline/stations.h"
-#include "plugin/option_check.h"
 
 namespace toposcope {
-
-/// A filter of options as a user wrote them.
-/// \param owner  for messages: who asks for it
-/// \throw UsageError  unknown filter or option, value out of range; PluginError  it cannot be loaded or made
-FilterStation make_filter(PluginHost& host, std::string_view id, std::span<const GivenOption> given,
-                          const std::string& owner);
-/// The same of options that are checked already.
-FilterStation make_filter(PluginHost& host, std::string_view id, const std::vector<OptionValue>& options);
 
 /// A mesh after the filters, and where its faces come from.
 struct PreparedMesh {

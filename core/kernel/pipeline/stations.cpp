@@ -3,9 +3,7 @@
 
 #include <map>
 
-#include "pipeline/filters.h"
 #include "pipeline/pipeline_manifest.h"
-#include "plugin/option_check.h"
 #include "plugin/plugin_host.h"
 #include "probability/probability_options.h"
 
@@ -70,6 +68,17 @@ PluginUse use_of(const PluginManifest& manifest, const std::vector<OptionValue>&
   for (std::size_t i = 0; i < options.size(); ++i)
     use.options.emplace_back(options[i].name, to_string(manifest.options[i], options[i]));
   return use;
+}
+
+FilterStation make_filter(PluginHost& host, std::string_view id, std::span<const GivenOption> given,
+                          const std::string& owner) {
+  const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id, owner);
+  return make_filter(host, id, check_options(manifest.options, given, owner + ": filter '" + manifest.id + "'"));
+}
+
+FilterStation make_filter(PluginHost& host, std::string_view id, const std::vector<OptionValue>& options) {
+  const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id);
+  return {manifest.id, host.filter(id, options), use_of(manifest, options)};
 }
 
 Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const Model& model) {

@@ -3,11 +3,14 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "model/model.h"
+#include "plugin/option_check.h"
 #include "probability/likelihood.h"
 #include "toposcope/filters.h"
 #include "toposcope/labeling.h"
@@ -20,7 +23,6 @@ namespace toposcope {
 
 class PluginHost;
 struct PipelineManifest;
-struct PluginManifest;
 
 /// A plugin at work in a run, as result.json reports it.
 struct PluginUse {
@@ -73,6 +75,14 @@ struct Stations {
   ProbabilityModel probability{};
   std::vector<PluginUse> uses;  ///< each plugin once, in the order of the path
 };
+
+/// A filter of options as a user wrote them.
+/// \param owner  for messages: who asks for it
+/// \throw UsageError  unknown filter or option, value out of range; PluginError  it cannot be loaded or made
+FilterStation make_filter(PluginHost& host, std::string_view id, std::span<const GivenOption> given,
+                          const std::string& owner);
+/// The same of options that are checked already.
+FilterStation make_filter(PluginHost& host, std::string_view id, const std::vector<OptionValue>& options);
 
 /// Loads what pipeline and model need. \throw PluginError, UsageError
 Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const Model& model);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/filters.h"
+#include "pipeline/stations.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
+#include "pipeline/filters.h"
+#include "plugin/plugin_host.h"
 #include "support/meshes.h"
 #include "support/plugins.h"
 
