@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "toposcope/labeling/conditional_costs.h"
+#include "toposcope/labeling/local_search.h"
 
 namespace toposcope::annealing {
 

@@ -1,41 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#pragma once
-
-// Why values were removed, in words, read from the trail.
+#include "removed_values.h"
 
 #include <algorithm>
 #include <string>
-#include <vector>
 
-#include "toposcope/labeling/crisp_propagation.h"
-
-namespace toposcope::discrete_relaxation {
-
-inline std::string value_name(const LabelingVariable& variable, Index value) {
-  if (!variable.value_names.empty()) return variable.value_names[value];
-  return variable.missing(value) ? "missing" : std::to_string(value);
-}
+namespace toposcope {
+namespace {
 
 /// 'a', 'b' and 'c'
-inline std::string list_of(const std::vector<std::string>& names) {
+std::string list_of(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t k = 0; k < names.size(); ++k)
     text += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
   return text;
 }
 
-/// Tells of what was struck by arc consistency alone.
 class Reasons {
  public:
-  explicit Reasons(const CrispDomains& domains)
+  explicit Reasons(const Propagation& domains)
       : domains_(domains), network_(domains.network()), problem_(network_.problem()) {}
 
-  /// In the order in which they were removed: first what was never open, *missing* not counted, then the trail.
   std::vector<RemovedValue> all() const {
     std::vector<RemovedValue> removed;
     for (Index v = 0; v < network_.variables(); ++v)
       for (Index value = 0; value < network_.domain(v); ++value)
-        if (domains_.struck_at(v, value) == CrispDomains::closed) {
+        if (domains_.struck_at(v, value) == Propagation::closed) {
           const std::string reason = network_.closed_reason(v, value);
           if (!problem_.variables[v].missing(value) || !(problem_.variables[v].costs[value] < forbidden))
             removed.push_back({v, value, reason});
@@ -56,7 +45,7 @@ class Reasons {
     std::vector<Index> left;
     for (Index value = 0; value < network_.domain(other); ++value) {
       const std::uint32_t struck = domains_.struck_at(other, value);
-      if (struck != CrispDomains::closed && struck >= at) left.push_back(value);
+      if (struck != Propagation::closed && struck >= at) left.push_back(value);
     }
     std::vector<std::string> members;
     const auto told = [&](std::size_t denied, const std::string& name) {
@@ -95,9 +84,15 @@ class Reasons {
     return "no values left of " + list_of(others) + " meet '" + constraint.name + "' with it";
   }
 
-  const CrispDomains& domains_;
-  const CrispNetwork& network_;
+  const Propagation& domains_;
+  const CompiledNetwork& network_;
   const LabelingProblem& problem_;
 };
 
-}  // namespace toposcope::discrete_relaxation
+}  // namespace
+
+std::vector<RemovedValue> removed_values(const Propagation& domains) {
+  return Reasons(domains).all();
+}
+
+}  // namespace toposcope
