@@ -11,7 +11,6 @@ namespace toposcope {
 inline constexpr Index no_vertex = std::numeric_limits<Index>::max();
 
 /// A triangle mesh as plugins see it: contiguous arrays and adjacency in compressed rows, owned by the kernel.
-/// Lengths are in the unit of the mesh file, the *mesh unit*.
 /// Guaranteed: finite positions, indices in range, at least one face, no face with a repeated vertex. The program
 /// repairs what it reads, so that its meshes are also manifold (with border) and consistently oriented; whoever needs
 /// that of a mesh of other origin checks it (opposite_half_edges). Not guaranteed: closed, connected.

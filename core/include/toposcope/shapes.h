@@ -41,7 +41,7 @@ struct FitSummary {
 };
 
 /// One entry of `parameters` in result.json. `columns` is 1 for a number, 3 for a point or direction;
-/// `values.size() / columns` entries (several for `endpoints`).
+/// `values.size() / columns` entries (several for `endpoints`). Lengths in mesh units, angles in rad.
 struct ShapeParameter {
   std::string name;
   int columns = 1;
@@ -61,7 +61,7 @@ struct FittedShape {
   std::vector<ShapeParameter> parameters;
   std::vector<Measure> measures;
   std::vector<std::string> covariance_of;  ///< names of the free parameters, in the order of `covariance`
-  std::vector<double> covariance;          ///< row-major square matrix
+  std::vector<double> covariance;          ///< row-major square matrix, products of their units
 
   Orientation orientation = Orientation::none;
   Vec3 direction = Vec3::UnitZ();  ///< unit length
@@ -69,7 +69,7 @@ struct FittedShape {
   Vec3 centroid = Vec3::Zero();    ///< mesh unit
   double centroid_sd = 0;          ///< mesh unit; root mean square over its components
 
-  std::vector<Vec3> outline;  ///< points along the shape, at most about one mean edge apart (at most 512)
+  std::vector<Vec3> outline;  ///< mesh unit; points along the shape, at most about one mean edge apart (at most 512)
   bool outline_closed = false;
 
   double rms = std::numeric_limits<double>::infinity();  ///< of the explained points' distances, mesh unit
@@ -107,6 +107,7 @@ struct FitInput {
   std::span<const Index> vertices = {};                    ///< of `mesh`, one per point; empty where it is null
 };
 
+/// Of a measure, in its unit.
 struct Interval {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
