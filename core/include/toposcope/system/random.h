@@ -13,7 +13,7 @@
 
 namespace toposcope {
 
-/// Splitmix64 (Steele, Lea and Flood 2014) as a function of a counter or seed: neighbouring numbers become unrelated.
+/// Splitmix64 [Steele2014] as a function of a counter or seed: neighbouring numbers become unrelated.
 constexpr std::uint64_t splitmix64(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -71,7 +71,7 @@ constexpr double uniform_open(std::uint64_t bits) {
   return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
 }
 
-/// Two independent standard normal numbers (Box and Muller 1958) from two uniform ones, `u` in (0, 1] and `v` in [0,
+/// Two independent standard normal numbers [Box1958] from two uniform ones, `u` in (0, 1] and `v` in [0,
 /// 1].
 inline std::array<double, 2> normal_pair(double u, double v) {
   const double radius = std::sqrt(-2 * std::log(u)), angle = 2 * pi * v;
