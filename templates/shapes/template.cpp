@@ -42,7 +42,7 @@ struct Fitter final : ShapeFitter {
     return shape;
   }
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    return std::abs((point - shape.centroid).norm() - shape.parameters[1].values[0]);
+    return std::abs((point - shape.centroid).norm() - shape.parameter("radius")->values[0]);
   }
   int min_points;
 };

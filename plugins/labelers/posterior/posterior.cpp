@@ -3,6 +3,7 @@
 // propagation.
 
 #include "run.h"
+#include "toposcope/labeling/tools.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -29,7 +30,7 @@ class Posterior final : public Labeler {
       outcome.guarantee = "exact: a problem without variables has one labelling";
       return outcome;
     }
-    LabelingOutcome outcome = Run(settings_, problem, request, context).outcome();
+    LabelingOutcome outcome = posterior::run(settings_, problem, request, context);
     context.progress(1);
     return outcome;
   }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/residuals.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -23,7 +24,7 @@ class Angle final : public RelationTester {
     if (low > high)
       throw std::invalid_argument("angle: min is greater than max, no angle lies between; exchange them in the model");
     RelationResult result;
-    if (first.orientation == Orientation::none || second.orientation == Orientation::none) {
+    if (!directed(first, second)) {
       result.applicable = false;
       result.why = "a shape without a direction or normal makes no angle";
       return result;
@@ -31,13 +32,11 @@ class Angle final : public RelationTester {
     const double directions = line_angle(first.direction, second.direction);
     // A line that is parallel to a plane's normal is at a right angle to the plane.
     const double angle = first.orientation == second.orientation ? directions : pi / 2 - directions;
-    result.residual = std::max({0.0, low - angle, angle - high});
+    measure_range(result, angle, low, high);
     result.tolerance = tolerance_;
-    result.sd = std::min(std::hypot(first.direction_sd, second.direction_sd), pi / 2);
-    result.dof = 1;
-    result.slack = high - low;
-    // Of random directions, see the page of `parallel`; never 0.
-    result.clutter_density = std::max(std::sin(directions), 0.05);
+    result.sd = angle_sd(first, second);
+    // Of random directions, see the page of `parallel`.
+    result.clutter_density = std::max(std::sin(directions), least_angle_density);
     return result;
   }
 

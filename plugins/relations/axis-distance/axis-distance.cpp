@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "toposcope/geometry/residuals.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -52,11 +53,9 @@ class AxisDistance final : public RelationTester {
     const Vec3 arm = beside.centroid - round.centroid;
     const double along = arm.dot(round.direction);
     const double distance = (arm - along * round.direction).norm();
-    result.residual = std::max({0.0, low - distance, distance - high});
+    measure_range(result, distance, low, high);
     result.tolerance = tolerance_rel_ * diagonal;
     result.sd = std::hypot(std::hypot(round.centroid_sd, beside.centroid_sd), along * round.direction_sd);
-    result.dof = 1;
-    result.slack = high - low;
     result.clutter_density = 1 / diagonal;
     return result;
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Centroid_Distance(min, max) of the dissertation, 4.6.
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
+#include "toposcope/geometry/residuals.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -26,11 +27,9 @@ class CentroidDistance final : public RelationTester {
     const double distance = (second.centroid - first.centroid).norm();
     const double diagonal = input.object_box.diagonal();
     RelationResult result;
-    result.residual = std::max({0.0, low - distance, distance - high});
+    measure_range(result, distance, low, high);
     result.tolerance = tolerance_rel_ * diagonal;
     result.sd = std::hypot(first.centroid_sd, second.centroid_sd);
-    result.dof = 1;
-    result.slack = high - low;
     result.clutter_density = 1 / diagonal;
     return result;
   }

@@ -10,6 +10,7 @@
 #include "circle_fit.h"
 #include "toposcope/geometry/lines.h"
 #include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/geometry/turn_coverage.h"
 #include "toposcope/plugin.h"
 
@@ -18,10 +19,6 @@ namespace {
 
 constexpr double radius_limit_diagonals = 100;
 constexpr std::size_t outline_limit = 512;
-
-Vec3 vector_of(const FittedShape& shape, std::size_t parameter) {
-  return Vec3(shape.parameters[parameter].values.data());
-}
 
 /// Inverse of a normal matrix whose variances end at `limit`: a direction that the points leave open is uncertain, not
 /// exact as a pseudo-inverse would have it.
@@ -131,8 +128,9 @@ class CircleFitter final : public ShapeFitter {
   }
 
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    return std::sqrt(
-        offset({vector_of(shape, 0), vector_of(shape, 1), shape.parameters[2].values[0]}, point).squared());
+    const Circle circle{vector_parameter(shape, "center"), vector_parameter(shape, "normal"),
+                        number_parameter(shape, "radius")};
+    return std::sqrt(offset(circle, point).squared());
   }
 
   /// The least radius stays open: the points that a robust fit leaves out may lie anywhere in the box.

@@ -7,6 +7,7 @@
 #include "polyline.h"
 #include "toposcope/geometry/lines.h"
 #include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/plugin.h"
 
 namespace toposcope::line_group {
@@ -86,7 +87,7 @@ class LineGroupFitter final : public ShapeFitter {
   }
 
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    const std::vector<double>& values = shape.parameters[0].values;
+    const std::vector<double>& values = parameter_values(shape, "endpoints");
     const std::size_t vertices = values.size() / 3, segments = vertices - (shape.outline_closed ? 0 : 1);
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < segments; ++k) {

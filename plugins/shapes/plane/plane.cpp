@@ -9,6 +9,7 @@
 
 #include "toposcope/geometry/lines.h"
 #include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/plugin.h"
 
 namespace toposcope::plane {
@@ -185,7 +186,7 @@ class PlaneFitter final : public ShapeFitter {
   }
 
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    return std::abs(height({Vec3(shape.parameters[0].values.data()), Vec3(shape.parameters[1].values.data())}, point));
+    return std::abs(height({vector_parameter(shape, "point"), vector_parameter(shape, "normal")}, point));
   }
 
   Interval bounds(std::string_view measure, std::span<const Box> sets, const Options&) const override {

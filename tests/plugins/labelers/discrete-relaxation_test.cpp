@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/run_context.h"
+#include "support/labeler_checks.h"
 #include "support/labeling_problems.h"
 #include "support/plugins.h"
 #include "toposcope/labeling/tools.h"
@@ -17,12 +18,6 @@ namespace {
 using namespace toposcope;
 
 using Domains = std::vector<std::vector<bool>>;
-
-std::string fact(const LabelingOutcome& outcome, std::string_view name) {
-  for (const LabelingFact& fact : outcome.facts)
-    if (fact.name == name) return fact.value;
-  return "";
-}
 
 Index missing_in(const LabelingProblem& problem, const std::vector<Index>& values) {
   Index missing = 0;
@@ -116,7 +111,7 @@ TEST(DiscreteRelaxation, ReachesTheFixpointAndEveryValueFellForAReason) {
     for (const bool with_missing : {true, false}) {
       const LabelingOutcome outcome = relax(problem, with_missing ? "allowed" : "never", false);
       const Domains fixpoint = naive_fixpoint(problem, open_domains(problem, with_missing));
-      EXPECT_EQ(fact(outcome, "emptied domain").empty(), !emptied(fixpoint));
+      EXPECT_EQ(test::fact(outcome, "emptied domain").empty(), !emptied(fixpoint));
       if (emptied(fixpoint))
         ++wiped_out;
       else
@@ -148,7 +143,7 @@ TEST(DiscreteRelaxation, NoValueOfASolutionFalls) {
         if (!consistent(problem, labeling.values) || (!with_missing && missing_in(problem, labeling.values) > 0))
           continue;
         for (Index v = 0; v < left.size(); ++v) ASSERT_TRUE(left[v][labeling.values[v]]);
-        EXPECT_EQ(fact(outcome, "emptied domain"), "");
+        EXPECT_EQ(test::fact(outcome, "emptied domain"), "");
       }
     }
   }
@@ -196,8 +191,8 @@ TEST(DiscreteRelaxation, FixpointDoesNotDependOnAnyOrder) {
     for (LabelingConstraint& constraint : reversed.constraints)
       for (Index& v : constraint.scope) v = static_cast<Index>(problem.variables.size() - 1 - v);
     const LabelingOutcome one = relax(problem, "never", false), other = relax(reversed, "never", false);
-    ASSERT_EQ(fact(one, "emptied domain").empty(), fact(other, "emptied domain").empty());
-    if (!fact(one, "emptied domain").empty()) continue;
+    ASSERT_EQ(test::fact(one, "emptied domain").empty(), test::fact(other, "emptied domain").empty());
+    if (!test::fact(one, "emptied domain").empty()) continue;
     Domains turned = left_by(reversed, other, false);
     std::reverse(turned.begin(), turned.end());
     EXPECT_EQ(left_by(problem, one, false), turned);
@@ -212,12 +207,12 @@ TEST(DiscreteRelaxation, FourQueens) {
   EXPECT_TRUE(outcome.removed.empty());
   EXPECT_TRUE(outcome.labelings.empty());
   EXPECT_FALSE(outcome.optimal);
-  EXPECT_EQ(fact(outcome, "domain of 'row0'"), "4 of 4: 0, 1, 2, 3");
+  EXPECT_EQ(test::fact(outcome, "domain of 'row0'"), "4 of 4: 0, 1, 2, 3");
   problem.variables[0].costs = {0, forbidden, forbidden, forbidden};
   outcome = relax(problem, "allowed", true);
   EXPECT_TRUE(outcome.labelings.empty());
   EXPECT_TRUE(outcome.optimal);
-  EXPECT_NE(fact(outcome, "emptied domain"), "");
+  EXPECT_NE(test::fact(outcome, "emptied domain"), "");
   EXPECT_EQ(outcome.nodes, 0U);
   EXPECT_EQ(outcome.removed[0].reason, "its cost is infinite");
   problem.variables[0].costs = {forbidden, 0, forbidden, forbidden};
@@ -246,7 +241,7 @@ TEST(DiscreteRelaxation, TellsTheExclusionAndWhatActsTogether) {
   r1.violations[1 * 3 + 2] = 2;
   problem.constraints.push_back(r1);
   outcome = relax(problem, "never", false);
-  EXPECT_EQ(fact(outcome, "emptied domain"), "edge");
+  EXPECT_EQ(test::fact(outcome, "emptied domain"), "edge");
   ASSERT_FALSE(outcome.removed.empty());
   EXPECT_EQ(outcome.removed.back().reason, "no value of 'rim' meets 'r1' with it");
   problem.variables[0] = {"rim", 1, {0, 1}, {0, 0, 0}};

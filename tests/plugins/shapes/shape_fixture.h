@@ -12,6 +12,7 @@
 
 #include "support/plugins.h"
 #include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/shapes.h"
 
 namespace toposcope::test {
@@ -84,16 +85,6 @@ inline PointSets shuffled(PointSets sets, std::uint64_t seed) {
   for (std::size_t i = sets.points.size(); i > 1; --i)
     std::swap(sets.points[i - 1], sets.points[random.engine()() % i]);
   return sets;
-}
-
-inline const std::vector<double>& parameter(const FittedShape& shape, const std::string& name) {
-  for (const ShapeParameter& p : shape.parameters)
-    if (p.name == name) return p.values;
-  throw std::out_of_range("no parameter " + name);
-}
-
-inline Vec3 vector_parameter(const FittedShape& shape, const std::string& name) {
-  return Vec3(parameter(shape, name).data());
 }
 
 inline const Measure& measure(const FittedShape& shape, const std::string& name) {
