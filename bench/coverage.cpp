@@ -144,8 +144,8 @@ bench::View view_of(const json& frame) {
 std::optional<Mesh> filtered(const MeshView& mesh, const MeshFilter& filter, Context& context) {
   struct Sink final : MeshSink {
     std::optional<TriangleSoup> soup;
-    void set(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-             std::span<const Index> origin) override {
+    void set(std::span<const Vec3> positions, std::span<const Triangle> triangles, std::span<const Index> origin,
+             std::span<const Index>) override {
       soup.emplace();
       soup->positions.assign(positions.begin(), positions.end());
       soup->triangles.assign(triangles.begin(), triangles.end());

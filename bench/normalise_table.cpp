@@ -23,7 +23,8 @@ using namespace toposcope;
 namespace fs = std::filesystem;
 
 struct Caught final : MeshSink {
-  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index>) override {
+  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index>,
+           std::span<const Index>) override {
     soup.positions.assign(p.begin(), p.end());
     soup.triangles.assign(t.begin(), t.end());
     soup.face_origin.resize(t.size());

@@ -48,6 +48,20 @@ ordered_json values_of(const LabelingProblem& problem, const Labeling& labeling)
   return values;
 }
 
+const char* name_of(Exactness exactness) {
+  constexpr const char* names[] = {"none", "exact", "bound", "approximate"};
+  return names[static_cast<std::size_t>(exactness)];
+}
+
+ordered_json error_of(Exactness exactness, double error) {
+  return exactness == Exactness::bound ? ordered_json(error) : ordered_json();
+}
+
+/// "exact", "approximate", "off by at most 0.001 nats"
+std::string in_words(Exactness exactness, double error, const char* unit) {
+  return exactness == Exactness::bound ? fmt::format("off by at most {:.3g}{}", error, unit) : name_of(exactness);
+}
+
 // What is no finite number is written as null.
 std::string as_json(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& labeler,
                     double time_ms) {
@@ -62,7 +76,11 @@ std::string as_json(const LabelingProblem& problem, const LabelingOutcome& outco
                                        : outcome.optimal ? ordered_json(false)
                                                          : ordered_json()},
                        {"posteriors", ordered_json()},
+                       {"posterior_exactness", name_of(outcome.posterior_exactness)},
+                       {"posterior_error", error_of(outcome.posterior_exactness, outcome.posterior_error)},
                        {"log_evidence", outcome.log_evidence},
+                       {"evidence_exactness", name_of(outcome.evidence_exactness)},
+                       {"evidence_error", error_of(outcome.evidence_exactness, outcome.evidence_error)},
                        {"nodes", outcome.nodes},
                        {"time_ms", time_ms},
                        {"guarantee", outcome.guarantee}};
@@ -74,11 +92,11 @@ std::string as_json(const LabelingProblem& problem, const LabelingOutcome& outco
         {{"labeling", values_of(problem, outcome.labelings[k])}, {"cost", outcome.labelings[k].cost}});
   root["facts"] = ordered_json::object();
   for (const LabelingFact& fact : outcome.facts) root["facts"][fact.name] = fact.value;
-  root["fallen"] = ordered_json::array();
-  for (const FallenValue& fallen : outcome.fallen)
-    root["fallen"].push_back({{"variable", problem.variables[fallen.variable].name},
-                              {"value", value_name(problem.variables[fallen.variable], fallen.value)},
-                              {"reason", fallen.reason}});
+  root["removed"] = ordered_json::array();
+  for (const RemovedValue& removed : outcome.removed)
+    root["removed"].push_back({{"variable", problem.variables[removed.variable].name},
+                               {"value", value_name(problem.variables[removed.variable], removed.value)},
+                               {"reason", removed.reason}});
   return root.dump() + "\n";
 }
 
@@ -103,7 +121,11 @@ std::string as_text(const LabelingProblem& problem, const LabelingOutcome& outco
   if (found && !outcome.optimal && std::isfinite(outcome.lower_bound))
     text += fmt::format("lower bound  {:.10g}, gap {:.4g}\n", outcome.lower_bound,
                         outcome.labelings[0].cost - outcome.lower_bound);
-  if (!std::isnan(outcome.log_evidence)) text += fmt::format("log evidence {:.10g}\n", outcome.log_evidence);
+  if (!std::isnan(outcome.log_evidence))
+    text += fmt::format("log evidence {:.10g} ({})\n", outcome.log_evidence,
+                        in_words(outcome.evidence_exactness, outcome.evidence_error, " nats"));
+  if (!outcome.posteriors.empty())
+    text += fmt::format("posteriors   {}\n", in_words(outcome.posterior_exactness, outcome.posterior_error, ""));
   for (std::size_t k = 1; k < outcome.labelings.size(); ++k) {
     text += fmt::format("next best    {:.10g}:", outcome.labelings[k].cost);
     for (Index v = 0; v < problem.variables.size(); ++v)
@@ -111,9 +133,9 @@ std::string as_text(const LabelingProblem& problem, const LabelingOutcome& outco
     text += "\n";
   }
   for (const LabelingFact& fact : outcome.facts) text += fmt::format("{}: {}\n", fact.name, fact.value);
-  for (const FallenValue& fallen : outcome.fallen)
-    text += fmt::format("fell: {} = {}: {}\n", problem.variables[fallen.variable].name,
-                        value_name(problem.variables[fallen.variable], fallen.value), fallen.reason);
+  for (const RemovedValue& removed : outcome.removed)
+    text += fmt::format("removed: {} = {}: {}\n", problem.variables[removed.variable].name,
+                        value_name(problem.variables[removed.variable], removed.value), removed.reason);
   return text + fmt::format("{}: {}; {} nodes, {:.1f} ms\n", labeler, outcome.guarantee, outcome.nodes, time_ms);
 }
 
@@ -158,7 +180,11 @@ int label(const LabelOptions& options) {
     const LabelingOutcome sums =
         solve(*session.host().labeler(plugin.id, check_options(plugin.options, {}, plugin.id)), plugin.id);
     outcome.posteriors = sums.posteriors;
+    outcome.posterior_exactness = sums.posterior_exactness;
+    outcome.posterior_error = sums.posterior_error;
     outcome.log_evidence = sums.log_evidence;
+    outcome.evidence_exactness = sums.evidence_exactness;
+    outcome.evidence_error = sums.evidence_error;
     outcome.facts.push_back({"probabilities", sums.guarantee});
   }
   if (file.maximize) outcome.facts.push_back({"maximised", "costs are minus the values, which the file maximises"});

@@ -19,6 +19,8 @@ namespace {
 constexpr PluginKind kinds[] = {PluginKind::filters, PluginKind::worksets, PluginKind::shapes, PluginKind::relations,
                                 PluginKind::labelers};
 
+constexpr const char* dimensions[] = {"points", "lines", "surfaces", "volumes"};
+
 void print_table(const char* title, const std::vector<OptionRow>& rows) {
   if (rows.empty()) return;
   fmt::print("\n{}:\n", title);
@@ -96,6 +98,7 @@ int plugins_describe(const PluginsOptions& options) {
   fmt::print("{} {} ({})\n{}\n", plugin.id, plugin.version, to_string(plugin.kind), plugin.summary);
   if (!plugin.citation.empty()) fmt::print("source: {}\n", plugin.citation);
   if (!plugin.unit.empty()) fmt::print("residual in: {}\n", plugin.unit);
+  if (plugin.dimension >= 0) fmt::print("fits: {}\n", dimensions[static_cast<std::size_t>(plugin.dimension)]);
   if (!plugin.programs.empty()) fmt::print("runs: {}{}\n", fmt::join(plugin.programs, ", "), availability(plugin));
   if (!plugin.provides.empty()) fmt::print("\nprovides:\n");
   for (const ProvidedRow& row : plugin.provides) fmt::print("  {:<14}{}\n", row.name, row.meaning);

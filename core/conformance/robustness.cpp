@@ -100,6 +100,7 @@ class ThrowingContext final : public Context {
   std::uint64_t seed() const override { return 1; }
   unsigned threads() const override { return 2; }
   void parallel_for(std::size_t, std::size_t, const std::function<void(std::size_t, std::size_t)>&) override { fail(); }
+  std::uint64_t memory_budget() const override { return std::uint64_t{1} << 30; }
   int calls = 0;
 
  private:

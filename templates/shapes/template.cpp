@@ -56,5 +56,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, Fitter,
                   .version = "0.1.0",
                   .summary = "A sphere by linear least squares",
                   .min_arity = 1,
+                  .dimension = 2,
                   .options = options,
                   .provides = measures})

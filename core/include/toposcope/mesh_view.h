@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "toposcope/types.h"
 
 namespace toposcope {
 
+inline constexpr Index no_vertex = std::numeric_limits<Index>::max();
+
 /// A triangle mesh as plugins see it: contiguous arrays and adjacency in compressed rows, owned by the kernel.
+/// Lengths are in the unit of the mesh file, the *mesh unit*.
 /// Guaranteed: finite positions, indices in range, at least one face, no face with a repeated vertex. The program
 /// repairs what it reads, so that its meshes are also manifold (with border) and consistently oriented; whoever needs
 /// that of a mesh of other origin checks it (opposite_half_edges). Not guaranteed: closed, connected.
@@ -19,7 +23,10 @@ struct MeshView {
   std::span<const Index> face_offsets;      ///< size vertices + 1, into `faces`
   std::span<const Index> faces;             ///< faces around a vertex, ascending within a row
   Box box;                                  ///< bb(O)
-  double mean_edge = 0;                     ///< mean length of the undirected edges
+  double mean_edge = 0;                     ///< mean length of the undirected edges, mesh unit
+  /// For each vertex the vertex of the mesh that was read (and repaired) that it is, or `no_vertex` where a filter made
+  /// or moved it: what lies between read vertices lies on a chord of what they sample. Empty: all are, by number.
+  std::span<const Index> input_vertices = {};
 
   Index vertex_count() const { return static_cast<Index>(positions.size()); }
   Index face_count() const { return static_cast<Index>(triangles.size()); }

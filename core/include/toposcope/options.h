@@ -18,9 +18,10 @@ struct OptionSpec {
   OptionType type;
   const char* unit;           ///< "", "deg", "mean-edges", "diagonals", "s", ...
   const char* default_value;  ///< as a user would write it; "" = must be given
-  const char* minimum;        ///< inclusive; "" = unbounded. For text: the choices, separated by '|', or ""
-  const char* maximum;        ///< inclusive; "" = unbounded
+  const char* minimum;        ///< of a number, inclusive, in `unit`; "" = unbounded
+  const char* maximum;        ///< likewise
   const char* meaning;        ///< one line
+  const char* choices = "";   ///< of a text: what it may be, "a|b|c"; "" = any text
 };
 
 /// A checked value: the kernel has verified type, range and choice and filled in the defaults.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "toposcope/context.h"
+#include "toposcope/mesh_view.h"
 #include "toposcope/options.h"
 #include "toposcope/types.h"
 
@@ -35,7 +36,7 @@ struct FitSummary {
   std::string message;
   int iterations = 0;
   double initial_cost = 0;  ///< half the sum of squared (or robustified) distances, in squared mesh units
-  double final_cost = 0;
+  double final_cost = 0;    ///< likewise
   bool usable() const { return termination == Termination::closed_form || termination == Termination::converged; }
 };
 
@@ -50,8 +51,8 @@ struct ShapeParameter {
 /// A number that the model's ranges may bound, named and with its dimension in the plugin's measure table.
 struct Measure {
   std::string name;
-  double value = 0;
-  double sd = 0;  ///< standard deviation, same unit
+  double value = 0;  ///< mesh unit to the power that the table says; angles in rad
+  double sd = 0;     ///< standard deviation, same unit
 };
 
 /// A shape fitted to the points of one or more working sets (G(W) and E(W) of dissertation 3.4.1).
@@ -64,9 +65,9 @@ struct FittedShape {
 
   Orientation orientation = Orientation::none;
   Vec3 direction = Vec3::UnitZ();  ///< unit length
-  double direction_sd = 0;         ///< rad
-  Vec3 centroid = Vec3::Zero();
-  double centroid_sd = 0;
+  double direction_sd = 0;         ///< rad; root mean square of its tilts' standard deviations
+  Vec3 centroid = Vec3::Zero();    ///< mesh unit
+  double centroid_sd = 0;          ///< mesh unit; root mean square over its components
 
   std::vector<Vec3> outline;  ///< points along the shape, at most about one mean edge apart (at most 512)
   bool outline_closed = false;
@@ -92,13 +93,18 @@ struct FittedShape {
 /// The points to fit and the lengths that give them scale.
 struct FitInput {
   std::span<const Vec3> points;        ///< the working sets' points, one set after the other
-  std::span<const double> areas;       ///< the surface that each point stands for: a third of its triangles
-  std::span<const Index> set_offsets;  ///< size sets + 1
+  std::span<const double> areas;       ///< the surface that each point stands for, a third of its triangles; squared
+                                       ///< mesh units
+  std::span<const Index> set_offsets;  ///< size sets + 1, into `points`
   std::span<const Box> set_boxes;      ///< one per set
   Box box;                             ///< bb(w): of all points
   Box object_box;                      ///< bb(O)
-  double mean_edge = 0;
-  std::span<const double> bends = {};  ///< that surface's mean_curvature_measure (curvature.h); since 2.2
+  double mean_edge = 0;                ///< mesh unit
+  std::span<const double> integrated_mean_curvature = {};  ///< of each point's surface (mean_curvature_measure of
+                                                           ///< toposcope/geometry/curvature.h), mesh unit; empty: not
+                                                           ///< known
+  const MeshView* mesh = nullptr;                          ///< that the points are vertices of; null: of none
+  std::span<const Index> vertices = {};                    ///< of `mesh`, one per point; empty where it is null
 };
 
 struct Interval {
@@ -111,6 +117,7 @@ class ShapeFitter {
  public:
   virtual ~ShapeFitter() = default;
   /// Never throws for points it cannot fit: says so in the summary.
+  /// \throw std::invalid_argument  arguments that make no sense together
   /// \param arguments  what the model says of the shape (`segments: 3`), checked against the descriptor's arguments
   virtual FittedShape fit(const FitInput& input, const Options& arguments, Context& context) const = 0;
   /// Distance from a point to a shape that this fitter made, mesh unit.

@@ -77,7 +77,11 @@ struct Solver {
       sums.k_best = 1;
       LabelingOutcome marginals = outcome_of(posed.problem, *stations.marginals, stations.marginals_id, sums);
       outcome.posteriors = std::move(marginals.posteriors);
+      outcome.posterior_exactness = marginals.posterior_exactness;
+      outcome.posterior_error = marginals.posterior_error;
       outcome.log_evidence = marginals.log_evidence;
+      outcome.evidence_exactness = marginals.evidence_exactness;
+      outcome.evidence_error = marginals.evidence_error;
       maker = &stations.marginals_id;
       made = std::move(marginals.guarantee);
       marginals_ms = watch.lap_ms();

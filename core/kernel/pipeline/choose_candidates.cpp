@@ -124,6 +124,7 @@ void choose_candidates(const FitJob& job, const WorkingSetGroups& groups, const 
         constructed.shape = fits.shapes[g];
         at.gather(ground.mesh, ground.of_vertices, ground.sets, groups[g]);
         constructed.points = at.points;
+        constructed.vertices = at.vertices;
         constructed.box = groups.arity() == 1 ? fits.boxes[g] : oriented_box(constructed.points);
       }
       candidates.constructed.push_back(made[g]);

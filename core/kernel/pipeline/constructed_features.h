@@ -17,8 +17,9 @@ namespace toposcope {
 struct ConstructedFeature {
   std::vector<Index> sets;  ///< working sets, in the order of the feature's types
   FittedShape shape;
-  Box box;                   ///< bb(w)
-  std::vector<Vec3> points;  ///< of all sets, one after the other
+  Box box;                      ///< bb(w)
+  std::vector<Vec3> points;     ///< of all sets, one after the other
+  std::vector<Index> vertices;  ///< of the mesh, one per point
 };
 
 /// How many groups of working sets a feature lost at each condition.

@@ -13,8 +13,9 @@ namespace toposcope {
 /// A mesh after the filters, and where its faces come from.
 struct PreparedMesh {
   const Mesh* input = nullptr;
-  std::optional<Mesh> filtered;  ///< absent when no filter changed anything
-  std::vector<Index> origin;     ///< per face of the filtered mesh, the triangle of the input
+  std::optional<Mesh>
+      filtered;               ///< absent when no filter changed anything; its view's `input_vertices` are the input's
+  std::vector<Index> origin;  ///< per face of the filtered mesh, the triangle of the input
   const MeshView& view() const { return filtered ? filtered->view() : input->view(); }
 };
 

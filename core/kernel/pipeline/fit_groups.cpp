@@ -86,7 +86,9 @@ GroupFits fit_groups(const FitJob& job, const WorkingSetGroups& groups, const Fi
       if (!wanted) continue;
       if (!joint_box) at.gather(mesh, ground.of_vertices, ground.sets, group);
       if (!joint_box && group.size() > 1) box = principal_box(at.points);
-      const FitInput input{at.points, at.areas, at.offsets, boxes_of_group, box, mesh.box, mesh.mean_edge, at.bends};
+      const FitInput input{at.points, at.areas,   at.offsets,     boxes_of_group,
+                           box,       mesh.box,   mesh.mean_edge, at.integrated_mean_curvature,
+                           &mesh,     at.vertices};
       result.shapes[g] = job.fitter->fit(input, Options(*job.arguments), context);
       for (std::size_t i = 0; i < job.features.size(); ++i)
         if (Fate& fate = result.fates[i][g]; fate == Fate::fitted)

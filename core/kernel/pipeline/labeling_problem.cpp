@@ -76,7 +76,7 @@ struct BoundRelation {
                       std::vector<RelationOperand>& operands, Context& context) const {
     operands.clear();
     for (const ConstructedFeature* feature : features)
-      operands.push_back({&feature->shape, feature->points, feature->box});
+      operands.push_back({&feature->shape, feature->points, feature->box, feature->vertices});
     RelationResult result = tester->test({operands, mesh.box, mesh.mean_edge, &mesh}, Options(arguments), context);
     if (tolerance) result.tolerance = *tolerance;
     check(result);
@@ -84,18 +84,30 @@ struct BoundRelation {
   }
 };
 
-LabelingConstraint empty_constraint(const Relationship& relationship, const LabelingProblem& problem) {
-  LabelingConstraint constraint;
-  constraint.name = relationship.name;
-  constraint.scope = relationship.features;
+/// Entries of a relationship's table. `taken` bytes are in tables already; the table's own are added.
+std::size_t table_size(const Relationship& relationship, const LabelingProblem& problem, const Context& context,
+                       std::uint64_t& taken) {
   std::size_t size = 1;
-  for (Index v : constraint.scope) {
+  for (Index v : relationship.features) {
     size *= problem.variables[v].domain();
     if (size > max_table)
       throw UsageError(relationship.where.str() + ": relationship '" + relationship.name +
                        "' would need a table of over " + std::to_string(max_table) +
                        " entries; lower probability.max_candidates");
   }
+  taken += size * (sizeof(double) + sizeof(float));
+  if (taken > context.memory_budget())
+    throw UsageError(relationship.where.str() + ": with relationship '" + relationship.name +
+                     "' the tables of this model would need " + std::to_string(taken) +
+                     " bytes, and this run may take " + std::to_string(context.memory_budget()) +
+                     "; lower probability.max_candidates");
+  return size;
+}
+
+LabelingConstraint empty_constraint(const Relationship& relationship, std::size_t size) {
+  LabelingConstraint constraint;
+  constraint.name = relationship.name;
+  constraint.scope = relationship.features;
   constraint.costs.assign(size, 0);
   constraint.violations.assign(size, 0);
   return constraint;
@@ -201,9 +213,11 @@ LabelingProblem build_problem(const MeshView& mesh, const Model& model, const Co
   problem.conflict_bits = std::move(conflicts.bits);
 
   std::vector<BoundRelation> relations;
+  std::uint64_t taken = 0;  // bytes in tables
   for (Index r = 0; r < model.relationships.size(); ++r) {
     const Relationship& relationship = model.relationships[r];
     relations.emplace_back(mesh, model, r, stations);
+    const std::size_t size = table_size(relationship, problem, context, taken);
     const auto same = [&](Index v) { return problem.variables[v].candidates == known->variables[v].candidates; };
     if (known && std::all_of(relationship.features.begin(), relationship.features.end(), same)) {
       problem.constraints.push_back(known->constraints[r]);
@@ -226,7 +240,7 @@ LabelingProblem build_problem(const MeshView& mesh, const Model& model, const Co
       problem.constraints.push_back(std::move(constraint));
       continue;
     }
-    LabelingConstraint& constraint = problem.constraints.emplace_back(empty_constraint(relationship, problem));
+    LabelingConstraint& constraint = problem.constraints.emplace_back(empty_constraint(relationship, size));
     guard(relationship.plugin,
           [&] { fill_constraint(constraint, mesh, relations[r], problem, features, stations.probability, context); });
     context.progress(static_cast<double>(r + 1) / static_cast<double>(model.relationships.size()));
@@ -336,6 +350,10 @@ void check_outcome(const LabelingProblem& problem, const LabelingOutcome& outcom
                                     " as the least that a labelling can cost, and one that costs " +
                                     std::to_string(cost));
   }
+  if (std::isnan(outcome.log_evidence) != (outcome.evidence_exactness == Exactness::none))
+    throw PluginError(plugin, "does not say whether its evidence is exact, or says it of none");
+  if (outcome.posteriors.empty() != (outcome.posterior_exactness == Exactness::none))
+    throw PluginError(plugin, "does not say whether its posteriors are exact, or says it of none");
   if (outcome.posteriors.empty()) return;
   bool sized = outcome.posteriors.size() == problem.variables.size();
   for (Index v = 0; sized && v < problem.variables.size(); ++v)

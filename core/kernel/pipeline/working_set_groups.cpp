@@ -56,14 +56,16 @@ void WorkingSetGroups::keep(const std::vector<std::size_t>& groups) {
 void GroupPoints::gather(const MeshView& mesh, const VertexMeasures& measures, const WorkingSets& sets,
                          std::span<const Index> group) {
   points.clear();
+  vertices.clear();
   areas.clear();
-  bends.clear();
+  integrated_mean_curvature.clear();
   offsets.assign(1, 0);
   for (Index s : group) {
+    vertices.insert(vertices.end(), sets[s].begin(), sets[s].end());
     for (Index v : sets[s]) {
       points.push_back(mesh.positions[v]);
       areas.push_back(measures.areas[v]);
-      bends.push_back(measures.bends[v]);
+      integrated_mean_curvature.push_back(measures.integrated_mean_curvature[v]);
     }
     offsets.push_back(static_cast<Index>(points.size()));
   }
@@ -83,7 +85,7 @@ Box principal_box(std::span<const Vec3> points) {
 }
 
 VertexMeasures::VertexMeasures(const MeshView& mesh)
-    : areas(mesh.vertex_count(), 0), bends(mean_curvature_measure(mesh)) {
+    : areas(mesh.vertex_count(), 0), integrated_mean_curvature(mean_curvature_measure(mesh)) {
   for (const auto& [a, b, c] : mesh.triangles) {
     const double third =
         (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]).norm() / 6;

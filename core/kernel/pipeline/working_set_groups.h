@@ -38,8 +38,8 @@ class WorkingSetGroups {
 
 /// What fits are told of the surface around each vertex.
 struct VertexMeasures {
-  std::vector<double> areas;  ///< a third of the triangles around it
-  std::vector<double> bends;  ///< mean_curvature_measure
+  std::vector<double> areas;                      ///< a third of the triangles around it
+  std::vector<double> integrated_mean_curvature;  ///< mean_curvature_measure
 
   explicit VertexMeasures(const MeshView& mesh);
   VertexMeasures() = default;
@@ -48,7 +48,8 @@ struct VertexMeasures {
 /// The points of a group of working sets, one set after the other.
 struct GroupPoints {
   std::vector<Vec3> points;
-  std::vector<double> areas, bends;
+  std::vector<Index> vertices;
+  std::vector<double> areas, integrated_mean_curvature;
   std::vector<Index> offsets;
 
   void gather(const MeshView& mesh, const VertexMeasures& measures, const WorkingSets& sets,

@@ -87,10 +87,10 @@ bool is_name(std::string_view name) {
 
 std::vector<std::string> option_choices(const OptionRow& row) {
   std::vector<std::string> choices;
-  if (row.type != OptionType::text || row.minimum.empty()) return choices;
-  for (std::size_t first = 0; first <= row.minimum.size();) {
-    const std::size_t last = std::min(row.minimum.find('|', first), row.minimum.size());
-    choices.push_back(row.minimum.substr(first, last - first));
+  if (row.choices.empty()) return choices;
+  for (std::size_t first = 0; first <= row.choices.size();) {
+    const std::size_t last = std::min(row.choices.find('|', first), row.choices.size());
+    choices.push_back(row.choices.substr(first, last - first));
     first = last + 1;
   }
   return choices;
@@ -153,8 +153,10 @@ void check_table(std::span<const OptionRow> table, const std::string& owner) {
           throw UsageError(where + ": bound '" + *bound + "' is not a number of the option's type");
     if (row.type == OptionType::boolean && !(row.minimum.empty() && row.maximum.empty()))
       throw UsageError(where + ": a boolean has no bounds; leave them empty");
-    if (row.type == OptionType::text && !row.maximum.empty())
-      throw UsageError(where + ": a text option has no maximum; its choices stand in the minimum, separated by '|'");
+    if (row.type == OptionType::text && !(row.minimum.empty() && row.maximum.empty()))
+      throw UsageError(where + ": a text has no bounds; what it may be stands in 'choices', separated by '|'");
+    if (row.type != OptionType::text && !row.choices.empty())
+      throw UsageError(where + ": choices are for a text; leave them empty");
     if (numeric && !row.minimum.empty() && !row.maximum.empty() &&
         *parse_number(row.type, row.minimum) > *parse_number(row.type, row.maximum))
       throw UsageError(where + ": minimum " + row.minimum + " is above maximum " + row.maximum);

@@ -30,6 +30,7 @@ class MeshContext final : public Context {
     const std::size_t step = std::max<std::size_t>(1, grain);
     for (std::size_t first = 0; first < count; first += step) body(first, std::min(count, first + step));
   }
+  std::uint64_t memory_budget() const override { return outer_.memory_budget() / (alone_ ? 1 : outer_.threads()); }
 
  private:
   Context& outer_;

@@ -33,7 +33,7 @@ class Run {
     LabelingOutcome outcome = label(domains, !stopped && !open, stopped);
     outcome.lower_bound = none_ && network_.by_cost_alone() ? forbidden : least;
     if (network_.complete()) {
-      outcome.fallen = reasons(domains);
+      outcome.removed = reasons(domains);
       tell_domains(domains, outcome);
     }
     if (inconsistent_)
@@ -142,9 +142,10 @@ class DiscreteRelaxation final : public Labeler {
 };
 
 constexpr OptionSpec options[] = {
-    {"missing", OptionType::text, "", "only-if-needed", "only-if-needed|allowed|never", "",
+    {"missing", OptionType::text, "", "only-if-needed", "", "",
      "the domains are relaxed with nothing missing, and where that has no labelling the fewest may be; or with "
-     "*missing* a value like others; or with nothing missing ever"},
+     "*missing* a value like others; or with nothing missing ever",
+     "only-if-needed|allowed|never"},
     {"search", OptionType::boolean, "", "true", "", "",
      "look for the first consistent labelling, arc consistency maintained; false: relaxation alone"},
 };

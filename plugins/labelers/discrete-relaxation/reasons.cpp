@@ -19,21 +19,21 @@ class Reasons {
   explicit Reasons(const CrispDomains& domains)
       : domains_(domains), network_(domains.network()), problem_(network_.problem()) {}
 
-  std::vector<FallenValue> all() const {
-    std::vector<FallenValue> fallen;
+  std::vector<RemovedValue> all() const {
+    std::vector<RemovedValue> removed;
     for (Index v = 0; v < network_.variables(); ++v)
       for (Index value = 0; value < network_.domain(v); ++value)
         if (domains_.struck_at(v, value) == CrispDomains::closed) {
           const std::string reason = network_.closed_reason(v, value);
           if (!problem_.variables[v].missing(value) || !(problem_.variables[v].costs[value] < forbidden))
-            fallen.push_back({v, value, reason});
+            removed.push_back({v, value, reason});
         }
     for (std::uint32_t at = 0; at < domains_.trail().size(); ++at) {
       const Strike& strike = domains_.trail()[at];
-      fallen.push_back({strike.variable, strike.value,
-                        strike.cause.kind == StrikeCause::Kind::pair ? of_pair(strike, at) : of_table(strike)});
+      removed.push_back({strike.variable, strike.value,
+                         strike.cause.kind == StrikeCause::Kind::pair ? of_pair(strike, at) : of_table(strike)});
     }
-    return fallen;
+    return removed;
   }
 
  private:
@@ -95,7 +95,7 @@ std::string value_name(const LabelingVariable& variable, Index value) {
   return variable.missing(value) ? "missing" : std::to_string(value);
 }
 
-std::vector<FallenValue> reasons(const CrispDomains& domains) {
+std::vector<RemovedValue> reasons(const CrispDomains& domains) {
   return Reasons(domains).all();
 }
 

@@ -85,7 +85,16 @@ class Run {
     outcome_.lower_bound = forbidden;
     outcome_.log_evidence = -forbidden;
     outcome_.posteriors.clear();
+    promise(Exactness::exact, Exactness::none);
     outcome_.guarantee = "exact: no labelling has a finite cost, so that there are no probabilities";
+  }
+
+  /// \param left_out  part of the evidence that is known not to have been summed
+  void promise(Exactness evidence, Exactness posteriors, double left_out = 0) {
+    outcome_.evidence_exactness = evidence;
+    outcome_.evidence_error = std::log1p(left_out);
+    outcome_.posterior_exactness = posteriors;
+    outcome_.posterior_error = left_out;
   }
 
   void fact(std::string name, std::string value) {
@@ -123,6 +132,7 @@ class Run {
     context_.progress(0.7);
     outcome_.posteriors = spread(elimination.marginals());
     outcome_.log_evidence = log_evidence;
+    promise(Exactness::exact, Exactness::exact);
     outcome_.facts.clear();  // of a search that did not come to its end
     fact("method", "elimination");
     fact("table entries", number(plan.entries, "%.0f"));
@@ -184,6 +194,8 @@ class Run {
       for (std::size_t i = tables.offsets[depth]; i < tables.offsets[depth + 1]; ++i)
         marginals[tables.order[depth]].push_back(sums.values[i] / sums.total);
     outcome_.posteriors = spread(marginals);
+    const Exactness exactness = error <= as_good_as_exact ? Exactness::exact : Exactness::bound;
+    promise(exactness, exactness, error);
     fact("method", "search");
     fact("left out", number(error));
     outcome_.guarantee = (error <= settings_.tolerance ? "exact to " : "stopped early: proven to ") + number(error) +
@@ -212,6 +224,8 @@ class Run {
     const std::vector<std::vector<double>> marginals = propagation.marginals();
     outcome_.posteriors = spread(marginals);
     const bool exact = converged && propagation.forest();
+    const Exactness exactness = exact ? Exactness::exact : Exactness::approximate;
+    outcome_.posterior_exactness = exactness;
     fact("method", "belief propagation");
     fact("converged", converged ? "yes" : "no");
     fact("sweeps", std::to_string(propagation.sweeps()));
@@ -223,6 +237,7 @@ class Run {
                                      "); evidence is Bethe's estimate";
     propagation.use(watch_);
     outcome_.log_evidence = propagation.bethe_log_evidence();
+    outcome_.evidence_exactness = std::isnan(outcome_.log_evidence) ? Exactness::none : exactness;
     const std::vector<Index> decoded = decode(graph_, marginals, most_ties, watch_);
     if (!decoded.empty()) offer(decoded);
     return Ending::summed;
@@ -252,6 +267,7 @@ class Run {
   static constexpr std::uint64_t most_alternatives = 1'000'000, most_ties = 100'000;
   static constexpr double search_share = 0.6, sweeps_share = 0.8;
   static constexpr double converged_at = 1e-9;
+  static constexpr double as_good_as_exact = 1e-9;  ///< part of the evidence left out
   static constexpr std::uint64_t undamped_sweeps = 20;
 
   const Settings& settings_;

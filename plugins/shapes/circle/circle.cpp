@@ -147,8 +147,9 @@ class CircleFitter final : public ShapeFitter {
 };
 
 constexpr OptionSpec options[] = {
-    {"method", OptionType::text, "", "robust", "robust|powell", "",
-     "robust: outliers do not count; powell: least squares in the points' plane, as in the dissertation"},
+    {"method", OptionType::text, "", "robust", "", "",
+     "robust: outliers do not count; powell: least squares in the points' plane, as in the dissertation",
+     "robust|powell"},
     {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", "points within two scales of the circle belong to it"},
 };
 constexpr ProvidedName measures[] = {{"radius", 1, "radius of the circle"},
@@ -164,5 +165,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, toposcope::circle::CircleFitter,
                   .citation = "Neal 1999, section 4.4.1",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 1,
                   .options = toposcope::circle::options,
                   .provides = toposcope::circle::measures})

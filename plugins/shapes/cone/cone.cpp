@@ -164,5 +164,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, ConeFitter,
                   .summary = "circular cone: apex, axis into the cone, half of the opening angle",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 2,
                   .options = options,
                   .provides = measures})

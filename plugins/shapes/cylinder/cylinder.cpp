@@ -112,5 +112,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, CylinderFitter,
                   .summary = "circular cylinder: a point on the axis, the axis, radius",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 2,
                   .options = options,
                   .provides = measures})

@@ -202,8 +202,8 @@ class PlaneFitter final : public ShapeFitter {
 };
 
 constexpr OptionSpec options[] = {
-    {"method", OptionType::text, "", "robust", "robust|powell", "",
-     "robust: outliers lose their weight; powell: plain least squares, as in the dissertation"},
+    {"method", OptionType::text, "", "robust", "", "",
+     "robust: outliers lose their weight; powell: plain least squares, as in the dissertation", "robust|powell"},
     {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", "points within two scales of the plane belong to it"},
 };
 constexpr ProvidedName measures[] = {{"extent", 1, "longest side of the box of the plane's points"},
@@ -219,5 +219,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, toposcope::plane::PlaneFitter,
                   .citation = "Neal 1999, section 4.4.3",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 2,
                   .options = toposcope::plane::options,
                   .provides = toposcope::plane::measures})

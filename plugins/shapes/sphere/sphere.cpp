@@ -125,5 +125,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, SphereFitter,
                   .summary = "sphere: centre, radius",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 2,
                   .options = options,
                   .provides = measures})

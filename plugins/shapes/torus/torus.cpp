@@ -132,5 +132,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, TorusFitter,
                   .summary = "torus: centre, axis, radius of the ring, radius of the tube",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 2,
                   .options = options,
                   .provides = measures})

@@ -40,8 +40,8 @@ class Random {
 struct PointSets {
   std::vector<Vec3> points;
   double mean_edge = 1;
-  std::vector<Index> offsets;      ///< empty: one set
-  std::vector<double> bends = {};  ///< empty: the surface is not known to bend
+  std::vector<Index> offsets;                          ///< empty: one set
+  std::vector<double> integrated_mean_curvature = {};  ///< empty: not known
 };
 
 inline std::vector<Index> offsets_of(const PointSets& sets) {
@@ -70,7 +70,8 @@ inline FittedShape fit(const ShapeFitter& fitter, const PointSets& sets, const O
   const Box box = sets.points.empty() ? Box{} : oriented_box(sets.points);
   // Each point stands for a square of a mean edge.
   const std::vector<double> areas(sets.points.size(), sets.mean_edge * sets.mean_edge);
-  return fitter.fit({sets.points, areas, offsets, boxes, box, box, sets.mean_edge, sets.bends}, arguments, context());
+  return fitter.fit({sets.points, areas, offsets, boxes, box, box, sets.mean_edge, sets.integrated_mean_curvature},
+                    arguments, context());
 }
 
 inline PointSets transformed(PointSets sets, const Eigen::Matrix3d& rotation, double scale, const Vec3& shift) {

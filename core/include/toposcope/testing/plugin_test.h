@@ -21,7 +21,7 @@
 
 namespace toposcope::testing {
 
-/// One thread, never cancelled, says nothing.
+/// One thread, never cancelled, says nothing, gives a gibibyte.
 class QuietContext final : public Context {
  public:
   void log(LogLevel, std::string_view) override {}
@@ -34,6 +34,7 @@ class QuietContext final : public Context {
     grain = std::max<std::size_t>(grain, 1);
     for (std::size_t first = 0; first < count; first += grain) body(first, std::min(count, first + grain));
   }
+  std::uint64_t memory_budget() const override { return std::uint64_t{1} << 30; }
 };
 
 /// Values of an option table: its defaults, and what is given instead. Keep it while its Options are in use.
@@ -151,14 +152,16 @@ struct FoundSets final : WorkingSetSink {
 
 /// The mesh that a filter makes; untouched where it makes none.
 struct FilteredMesh final : MeshSink {
-  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index> o) override {
+  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index> faces,
+           std::span<const Index> vertices) override {
     positions.assign(p.begin(), p.end());
     triangles.assign(t.begin(), t.end());
-    origin.assign(o.begin(), o.end());
+    face_origin.assign(faces.begin(), faces.end());
+    vertex_origin.assign(vertices.begin(), vertices.end());
   }
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;
-  std::vector<Index> origin;
+  std::vector<Index> face_origin, vertex_origin;
 };
 
 inline int failures = 0;  ///< what the test's main returns

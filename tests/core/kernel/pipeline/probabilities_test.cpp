@@ -71,6 +71,7 @@ struct Contract : ::testing::Test {
     outcome.labelings = {{{0, 0}, 1}, {{1, 0}, 2}};
     outcome.lower_bound = 1;
     outcome.posteriors = {{0.5, 0.25, 0.25}, {1, 0}};
+    outcome.posterior_exactness = Exactness::exact;
   }
   std::string refusal() const {
     try {
@@ -88,7 +89,21 @@ TEST_F(Contract, KeptIsNotRefused) {
   EXPECT_EQ(refusal(), "");
   outcome.lower_bound = -forbidden;
   outcome.posteriors.clear();
+  outcome.posterior_exactness = Exactness::none;
   EXPECT_EQ(refusal(), "");
+}
+
+TEST_F(Contract, SumsSayWhetherTheyAreExact) {
+  outcome.posterior_exactness = Exactness::none;
+  EXPECT_THAT(refusal(), HasSubstr("posteriors"));
+  outcome.posterior_exactness = Exactness::approximate;
+  EXPECT_EQ(refusal(), "");
+  outcome.log_evidence = -1;
+  EXPECT_THAT(refusal(), HasSubstr("evidence"));
+  outcome.evidence_exactness = Exactness::bound;
+  EXPECT_EQ(refusal(), "");
+  outcome.log_evidence = none;
+  EXPECT_THAT(refusal(), HasSubstr("evidence"));
 }
 
 TEST_F(Contract, ABoundAboveACost) {

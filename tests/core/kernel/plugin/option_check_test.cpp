@@ -18,7 +18,7 @@ const std::vector<OptionRow> table = {
     {"tolerance", OptionType::real, "deg", "5", "0", "90", "largest angle"},
     {"count", OptionType::integer, "", "80", "1", "", "how many"},
     {"smooth", OptionType::boolean, "", "true", "", "", "whether to smooth"},
-    {"method", OptionType::text, "", "robust", "robust|powell", "", "how to fit"},
+    {"method", OptionType::text, "", "robust", "", "", "how to fit", "robust|powell"},
     {"label", OptionType::text, "", "none", "", "", "any text"},
 };
 
@@ -122,8 +122,9 @@ TEST(OptionTable, UnsoundRowsAreRefused) {
   EXPECT_THAT(refused({"max", OptionType::real, "", "3", "1", "2", "x"}), HasSubstr("cannot be '3'"));
   EXPECT_THAT(refused({"max", OptionType::integer, "", "1", "0.5", "", "x"}), HasSubstr("bound '0.5'"));
   EXPECT_THAT(refused({"max", OptionType::boolean, "", "true", "0", "", "x"}), HasSubstr("no bounds"));
-  EXPECT_THAT(refused({"max", OptionType::text, "", "c", "a|b", "", "x"}), HasSubstr("one of a, b"));
-  EXPECT_THAT(refused({"max", OptionType::text, "", "a", "a|b", "z", "x"}), HasSubstr("no maximum"));
+  EXPECT_THAT(refused({"max", OptionType::text, "", "c", "", "", "x", "a|b"}), HasSubstr("one of a, b"));
+  EXPECT_THAT(refused({"max", OptionType::text, "", "a", "a|b", "", "x"}), HasSubstr("'choices'"));
+  EXPECT_THAT(refused({"max", OptionType::real, "", "1", "", "", "x", "1|2"}), HasSubstr("for a text"));
   std::vector<OptionRow> twice = {table[0], table[0]};
   EXPECT_THROW(check_table(twice, "options"), UsageError);
 }

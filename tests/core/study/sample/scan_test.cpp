@@ -255,8 +255,8 @@ TEST(ScanTarget, PassesThroughThePointsOfItsFeatures) {
 TEST(Thin, KeepsTopologyBorderAndShape) {
   struct Sink final : MeshSink {
     TriangleSoup mesh;
-    void set(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-             std::span<const Index> origin) override {
+    void set(std::span<const Vec3> positions, std::span<const Triangle> triangles, std::span<const Index> origin,
+             std::span<const Index>) override {
       mesh.positions.assign(positions.begin(), positions.end());
       mesh.triangles.assign(triangles.begin(), triangles.end());
       mesh.face_origin.assign(origin.begin(), origin.end());
