@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "hitting_set.h"
-#include "toposcope/labeling/crisp_search.h"
+#include "tree_search.h"
 
 namespace toposcope {
 namespace {
@@ -81,17 +81,17 @@ class Finder {
       else
         part_.exclusions[exclusion_index(n, items_[k].first, items_[k].second)] = true;
     }
-    const CrispNetwork network(problem_, deadline_, part_);
+    const CompiledNetwork network(problem_, deadline_, part_);
     FirstFound first(problem_, values_);
-    CrispSearch search(network, {}, first, deadline_);
-    const CrispSearch::End end = search.run();
-    if (end == CrispSearch::End::out_of_time) return Answer::stopped;
-    if (end == CrispSearch::End::ended_by_visitor) return Answer::met;
-    if (core != nullptr) *core = used(items, network, search.domains());
+    TreeSearch search(network, {}, first, deadline_);
+    const TreeSearch::End end = search.run();
+    if (end == TreeSearch::End::out_of_time) return Answer::stopped;
+    if (end == TreeSearch::End::ended_by_visitor) return Answer::met;
+    if (core != nullptr) *core = used(items, network, search.propagation());
     return Answer::conflict;
   }
 
-  Items used(const Items& items, const CrispNetwork& network, const CrispDomains& domains) const {
+  Items used(const Items& items, const CompiledNetwork& network, const Propagation& domains) const {
     const std::size_t n = problem_.variables.size();
     std::vector<bool> constraints(problem_.constraints.size(), false), exclusions(n * (n - 1) / 2, false);
     for (Index c = 0; c < problem_.constraints.size(); ++c) constraints[c] = problem_.constraints[c].scope.size() == 1;

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "toposcope/labeling/conditional_costs.h"
+#include "toposcope/labeling/local_search.h"
 #include "toposcope/system/random.h"
 
 namespace toposcope::annealing {

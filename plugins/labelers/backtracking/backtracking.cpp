@@ -31,7 +31,7 @@ class Run {
         problem_(problem),
         request_(request),
         deadline_(deadline),
-        network_(problem, deadline, part()),
+        network_(problem, deadline, settings.missing == Missing::never),
         rules_(settings.rules) {
     rules_.missing_last = settings.missing == Missing::only_if_needed;
   }
@@ -65,12 +65,6 @@ class Run {
   }
 
  private:
-  CrispPart part() const {
-    CrispPart made;
-    if (settings_.missing == Missing::never) made.present.assign(problem_.variables.size(), true);
-    return made;
-  }
-
   void tell_conflict(bool missing_allowed, LabelingOutcome& outcome) const {
     add_conflict_fact(problem_, {.missing_allowed = missing_allowed}, request_, deadline_, context_, outcome);
   }

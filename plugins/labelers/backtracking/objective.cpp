@@ -57,7 +57,7 @@ double violation_of(const LabelingProblem& problem, std::span<const Index> value
 
 bool Objective::make(const CrispNetwork& network, bool violations, std::span<const Index> order, Deadline& deadline) {
   const LabelingProblem& problem = network.problem();
-  unary.assign(network.values(), 0);
+  unary.assign(network.offset(network.variables()), 0);
   parts_of.assign(network.variables(), {});
   std::vector<Index> rank(order.size());
   for (Index at = 0; at < order.size(); ++at) rank[order[at]] = at;

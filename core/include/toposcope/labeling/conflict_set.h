@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "toposcope/labeling/crisp_network.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope {
 

@@ -39,6 +39,11 @@ inline bool satisfied(const LabelingConstraint& constraint, std::size_t entry) {
   return constraint.violations.empty() ? constraint.costs[entry] < forbidden : constraint.violations[entry] <= 1;
 }
 
+/// True where the crisp problem's constraint lets the entry of its tables be: it is satisfied and its cost is finite.
+inline bool allowed(const LabelingConstraint& constraint, std::size_t entry) {
+  return constraint.costs[entry] < forbidden && satisfied(constraint, entry);
+}
+
 /// True where the two values may not both be labelled: their candidates share a vertex.
 bool excluded(const LabelingProblem& problem, Index variable, Index value, Index other, Index other_value);
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Domains that shrink: forward checking and generalised arc consistency over a CrispNetwork, with a trail for
+// Domains that shrink: forward checking and generalised arc consistency over a CompiledNetwork, with a trail for
 // backtracking and a cause for every value struck.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "toposcope/labeling/crisp_network.h"
+#include "crisp_network.h"
 
 namespace toposcope {
 
@@ -29,11 +29,12 @@ using VariableSet = std::vector<std::uint64_t>;
 
 /// Arc consistency: bitwise revision with residues (Lecoutre and Vion 2008, AC3bit+rm), which for tables over three and
 /// more variables seeks a support in the rows of the table. Its fixpoint does not depend on any order.
-class CrispDomains {
+class Propagation {
  public:
-  CrispDomains(const CrispNetwork& network, Deadline& deadline);
+  Propagation(const CompiledNetwork& network, Deadline& deadline);
 
-  const CrispNetwork& network() const { return network_; }
+  const CompiledNetwork& network() const { return network_; }
+  CrispDomains domains() const { return {words_.data(), network_.word_offsets(), sizes_.data(), assigned_.data()}; }
   std::span<const std::uint64_t> domain(Index variable) const {
     return {words_.data() + network_.word_offset(variable), network_.words(variable)};
   }
@@ -93,7 +94,7 @@ class CrispDomains {
   void mark_forced_missing(std::uint32_t before);
   void trace_marks(VariableSet& decisions);
 
-  const CrispNetwork& network_;
+  const CompiledNetwork& network_;
   Deadline& deadline_;
   std::vector<std::uint64_t> words_;
   std::vector<Index> sizes_;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reasons.h"
+#include "removed_values.h"
 
 #include <algorithm>
+#include <string>
 
-namespace toposcope::discrete_relaxation {
+namespace toposcope {
 namespace {
 
-// 'a', 'b' and 'c'
+/// 'a', 'b' and 'c'
 std::string list_of(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -16,14 +17,14 @@ std::string list_of(const std::vector<std::string>& names) {
 
 class Reasons {
  public:
-  explicit Reasons(const CrispDomains& domains)
+  explicit Reasons(const Propagation& domains)
       : domains_(domains), network_(domains.network()), problem_(network_.problem()) {}
 
   std::vector<RemovedValue> all() const {
     std::vector<RemovedValue> removed;
     for (Index v = 0; v < network_.variables(); ++v)
       for (Index value = 0; value < network_.domain(v); ++value)
-        if (domains_.struck_at(v, value) == CrispDomains::closed) {
+        if (domains_.struck_at(v, value) == Propagation::closed) {
           const std::string reason = network_.closed_reason(v, value);
           if (!problem_.variables[v].missing(value) || !(problem_.variables[v].costs[value] < forbidden))
             removed.push_back({v, value, reason});
@@ -44,7 +45,7 @@ class Reasons {
     std::vector<Index> left;
     for (Index value = 0; value < network_.domain(other); ++value) {
       const std::uint32_t struck = domains_.struck_at(other, value);
-      if (struck != CrispDomains::closed && struck >= at) left.push_back(value);
+      if (struck != Propagation::closed && struck >= at) left.push_back(value);
     }
     std::vector<std::string> members;
     const auto told = [&](std::size_t denied, const std::string& name) {
@@ -83,20 +84,15 @@ class Reasons {
     return "no values left of " + list_of(others) + " meet '" + constraint.name + "' with it";
   }
 
-  const CrispDomains& domains_;
-  const CrispNetwork& network_;
+  const Propagation& domains_;
+  const CompiledNetwork& network_;
   const LabelingProblem& problem_;
 };
 
 }  // namespace
 
-std::string value_name(const LabelingVariable& variable, Index value) {
-  if (!variable.value_names.empty()) return variable.value_names[value];
-  return variable.missing(value) ? "missing" : std::to_string(value);
-}
-
-std::vector<RemovedValue> reasons(const CrispDomains& domains) {
+std::vector<RemovedValue> removed_values(const Propagation& domains) {
   return Reasons(domains).all();
 }
 
-}  // namespace toposcope::discrete_relaxation
+}  // namespace toposcope

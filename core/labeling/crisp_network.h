@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "toposcope/labeling.h"
+#include "toposcope/labeling/crisp_search.h"
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope {
@@ -24,13 +25,8 @@ struct CrispPart {
   bool exclusions_apart = false;             ///< constraints allow what an exclusion forbids (see `allowed_apart`)
 };
 
-/// True where the crisp problem's constraint lets the entry of its tables be: it is satisfied and its cost is finite.
-inline bool allowed(const LabelingConstraint& constraint, std::size_t entry) {
-  return constraint.costs[entry] < forbidden && satisfied(constraint, entry);
-}
-
-/// The same, but an entry whose candidates exclude each other is left to their exclusion: tables of meshes forbid it as
-/// well, and the constraint is not to be blamed for that.
+/// As `allowed`, but an entry whose candidates exclude each other is left to their exclusion: tables of meshes forbid
+/// it as well, and the constraint is not to be blamed for that.
 bool allowed_apart(const LabelingProblem& problem, const LabelingConstraint& constraint, std::size_t entry);
 
 /// Position of a pair of variables, first < second, among all pairs of n variables.
@@ -67,12 +63,12 @@ struct CrispTable {
   std::size_t residues = 0;               ///< offset of the first variable's values; one entry per value and variable
 };
 
-/// A consistent labelling (`consistent` of labeling_tools.h) is one whose values are all open, whose pairs and tables
-/// all allow it. Refers to the problem, which must outlive it.
-class CrispNetwork {
+/// A consistent labelling (`consistent` of toposcope/labeling/tools.h) is one whose values are all open, whose pairs
+/// and tables all allow it. Refers to the problem, which must outlive it.
+class CompiledNetwork {
  public:
   /// Stops early, and `complete()` is false, when the deadline is reached.
-  CrispNetwork(const LabelingProblem& problem, Deadline& deadline, const CrispPart& part = {});
+  CompiledNetwork(const LabelingProblem& problem, Deadline& deadline, const CrispPart& part = {});
 
   const LabelingProblem& problem() const { return *problem_; }
   bool complete() const { return complete_; }
@@ -84,10 +80,12 @@ class CrispNetwork {
   Index domain(Index variable) const { return offsets_[variable + 1] - offsets_[variable]; }
   /// Position of a variable's first value among all values of all variables.
   Index offset(Index variable) const { return offsets_[variable]; }
+  const Index* offsets() const { return offsets_.data(); }
   Index values() const { return offsets_.back(); }
   /// Words that a set of the variable's values takes, and where they stand among those of all variables.
   std::size_t words(Index variable) const { return word_offsets_[variable + 1] - word_offsets_[variable]; }
   std::size_t word_offset(Index variable) const { return word_offsets_[variable]; }
+  const std::size_t* word_offsets() const { return word_offsets_.data(); }
 
   /// Per variable, at `word_offset`: the values of finite cost that the unary constraints allow.
   const std::vector<std::uint64_t>& initial() const { return initial_; }
@@ -128,14 +126,5 @@ class CrispNetwork {
   std::vector<bool> present_;
   std::size_t residues_ = 0, work_ = 0;
 };
-
-/// Steps through the values of a set in ascending order:
-///   for_each_value(words, [&](Index value) { ... });
-template <class Body>
-void for_each_value(std::span<const std::uint64_t> words, const Body& body) {
-  for (std::size_t w = 0; w < words.size(); ++w)
-    for (std::uint64_t rest = words[w]; rest != 0; rest &= rest - 1)
-      body(static_cast<Index>(w * 64 + static_cast<std::size_t>(__builtin_ctzll(rest))));
-}
 
 }  // namespace toposcope

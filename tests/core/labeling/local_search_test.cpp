@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What local search believes of a move against what cost_of makes of it.
 
-#include "toposcope/labeling/conditional_costs.h"
+#include "toposcope/labeling/local_search.h"
 
 #include <gtest/gtest.h>
 
