@@ -8,9 +8,9 @@
 
 #include "base/errors.h"
 #include "commands.h"
+#include "formats/problem_io.h"
 #include "pipeline/labeling_problem.h"
 #include "plugin/guard.h"
-#include "problem_io.h"
 #include "session.h"
 #include "toposcope/labeling/tools.h"
 

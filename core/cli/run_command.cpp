@@ -5,11 +5,11 @@
 
 #include "base/errors.h"
 #include "commands.h"
+#include "formats/problem_io.h"
 #include "io/mesh_io.h"
 #include "lock/run_lock.h"
 #include "model/read_model.h"
 #include "output_folder.h"
-#include "problem_io.h"
 #include "report_files.h"
 #include "resources.h"
 #include "result/result.h"

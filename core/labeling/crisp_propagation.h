@@ -27,7 +27,7 @@ struct Strike {
 /// A set of variables, as bits.
 using VariableSet = std::vector<std::uint64_t>;
 
-/// Arc consistency: bitwise revision with residues (Lecoutre and Vion 2008, AC3bit+rm), which for tables over three and
+/// Arc consistency: bitwise revision with residues ([Lecoutre2008], AC3bit+rm), which for tables over three and
 /// more variables seeks a support in the rows of the table. Its fixpoint does not depend on any order.
 class Propagation {
  public:

@@ -48,7 +48,7 @@ class Evaluator {
     evaluation.name = item.name;
     evaluation.object = item.object;
     evaluation.variant = item.variant;
-    evaluation.expected_class = item.class_name;
+    if (const auto* file = std::get_if<MeshFile>(&item.source)) evaluation.expected_class = file->class_name;
     try {
       const KnownMesh known = load(item, host_, context);
       if (!model_.classes.empty() && evaluation.expected_class.empty())
@@ -73,7 +73,8 @@ class Evaluator {
   void label(std::size_t number, const KnownMesh& known, MeshEvaluation& evaluation, Context& context) const {
     const auto start = std::chrono::steady_clock::now();
     const Analysis analysis = analyze(known.mesh, model_, stations_, {}, context);
-    const Result result = explain(analysis, model_, evaluation.name, stations_, context);
+    Result result = explain(analysis, model_, evaluation.name, stations_, context);
+    result.repair = known.repair;
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     evaluation.time_ms = took.count();
     evaluation.faces = result.faces;

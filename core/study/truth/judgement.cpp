@@ -97,7 +97,8 @@ class Judge {
       judged.excess = judged.distance / (limits_.ends_diagonal * scale_.diagonal);
       return;
     }
-    const std::vector<Vec3> marks = truth.band ? in_band(truth.points, *truth.band, report.shape) : truth.points;
+    const std::optional<TruthBand> band = truth.band();
+    const std::vector<Vec3> marks = band ? in_band(truth.points, *band, report.shape) : truth.points;
     judged.distance = mean_distance(marks, report.shape, fitter);
     if (report.shape.parameter("endpoints"))
       judged.excess = std::max(judged.distance, mean_distance_back(report.shape, marks)) /

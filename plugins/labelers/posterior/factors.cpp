@@ -71,8 +71,8 @@ class GraphBuilder {
   /// Strikes the values that no entry of finite cost of some constraint has (generalised arc consistency).
   void strike_unsupported() {
     std::vector<bool> due(problem_.constraints.size(), true);
-    for (bool fallen = true; fallen;) {
-      fallen = false;
+    for (bool removed = true; removed;) {
+      removed = false;
       for (Index c = 0; c < problem_.constraints.size(); ++c) {
         if (!due[c]) continue;
         due[c] = false;
@@ -85,7 +85,7 @@ class GraphBuilder {
           const std::size_t before = left.size();
           std::erase_if(left, [&](Index value) { return !supported(constraint, stride, k, value); });
           if (left.size() == before) continue;
-          fallen = true;
+          removed = true;
           for (Index other = 0; other < problem_.constraints.size(); ++other) {
             const auto& scope = problem_.constraints[other].scope;
             if (std::find(scope.begin(), scope.end(), constraint.scope[k]) != scope.end()) due[other] = true;

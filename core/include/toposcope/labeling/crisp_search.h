@@ -126,7 +126,7 @@ class CrispVisitor {
 std::vector<Index> detectability_order(const LabelingProblem& problem);
 
 /// Chronological tree search with forward checking or maintained arc consistency, dynamic variable ordering
-/// (dom/wdeg, Boussemart et al. 2004) and conflict-directed backjumping (Prosser 1993).
+/// (dom/wdeg [Boussemart2004]) and conflict-directed backjumping [Prosser1993].
 class CrispSearch {
  public:
   /// All must outlive it.

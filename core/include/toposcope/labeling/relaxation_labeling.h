@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Relaxation labelling: weighted labels that constraints pull towards each other (Rosenfeld, Hummel and Zucker 1976,
-// Hummel and Zucker 1983). A weight is a degree of assignment, no posterior probability.
+// Relaxation labelling: weighted labels that constraints pull towards each other [Rosenfeld1976], [Hummel1983]. A
+// weight is a degree of assignment, no posterior probability.
 
 #include <memory>
 #include <optional>
