@@ -167,14 +167,13 @@ struct Tally {
 /// Measures one class of objects at one resolution and draws its row of the picture.
 class Measurement {
  public:
-  Measurement(PluginHost& host, const std::string& plugin, const std::vector<std::string>& settings)
-      : host_(host), plugin_(plugin) {
+  Measurement(PluginHost& host, const std::string& plugin, const std::vector<std::string>& settings) : host_(host) {
     const PluginManifest& manifest = host.catalog().require(PluginKind::worksets, plugin);
     std::vector<GivenOption> given;
     for (const std::string& text : settings)
       given.push_back({text.substr(0, text.find('=')), text.substr(text.find('=') + 1)});
-    classifier_ = host.worksets(plugin, check_options(manifest.options, given, plugin));
-    for (const ProvidedRow& row : manifest.provides) types_.push_back(row.name);
+    station_ = {plugin, {}, host.worksets(plugin, check_options(manifest.options, given, plugin))};
+    for (const ProvidedRow& row : manifest.provides) station_.types.push_back(row.name);
   }
 
   void add(const fs::path& file, int faces, double scale, Tally& tally, bench::Picture& picture, int x, int y) {
@@ -187,7 +186,7 @@ class Measurement {
       if (auto made = normalised(mesh.view(), faces)) mesh = std::move(*made);
 
     const auto start = std::chrono::steady_clock::now();
-    const WorkingSets sets = classify_mesh(mesh.view(), *classifier_, plugin_, types_, context_);
+    const WorkingSets sets = classify_mesh(mesh.view(), station_, context_);
     tally.times_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     tally.sets.push_back(sets.size());
@@ -220,9 +219,7 @@ class Measurement {
   }
 
   PluginHost& host_;
-  std::string plugin_;
-  std::shared_ptr<const WorkingSetClassifier> classifier_;
-  std::vector<std::string> types_;
+  WorkingSetStation station_;
   RunContext context_;
 };
 

@@ -9,8 +9,7 @@
 #include "base/errors.h"
 #include "commands.h"
 #include "formats/problem_io.h"
-#include "pipeline/labeling_problem.h"
-#include "plugin/guard.h"
+#include "pipeline/solve.h"
 #include "session.h"
 #include "toposcope/labeling/tools.h"
 
@@ -161,30 +160,19 @@ int label(const LabelOptions& options) {
     for (const std::string& note : write_problem(options.save, file))
       session.context().log(LogLevel::info, options.save.string() + ": " + note);
   const std::string id = options.labeler.empty() ? "least-error" : options.labeler;
-  const auto solve = [&](const Labeler& labeler, const std::string& plugin) {
-    LabelingOutcome outcome = guard(plugin, [&] {
-      return labeler.solve(problem,
-                           {.k_best = options.k_best, .time_limit_s = options.time_limit_s, .within = options.within},
-                           session.context());
-    });
-    check_outcome(problem, outcome, plugin);
-    return outcome;
-  };
-  const auto labeler = make_labeler(options, id, session.host());
+  const LabelingRequest request{
+      .k_best = options.k_best, .time_limit_s = options.time_limit_s, .within = options.within};
+  const LabelerStation labeler{id, make_labeler(options, id, session.host())};
   const auto start = std::chrono::steady_clock::now();
-  LabelingOutcome outcome = solve(*labeler, id);
+  LabelingOutcome outcome = solve(labeler, problem, request, session.context());
   const double time_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   cut_at_top(outcome, file.top);
   if (options.marginals && outcome.posteriors.empty()) {
     const PluginManifest& plugin = session.host().catalog().require(PluginKind::labelers, "posterior", "--marginals");
-    const LabelingOutcome sums =
-        solve(*session.host().labeler(plugin.id, check_options(plugin.options, {}, plugin.id)), plugin.id);
-    outcome.posteriors = sums.posteriors;
-    outcome.posterior_exactness = sums.posterior_exactness;
-    outcome.posterior_error = sums.posterior_error;
-    outcome.log_evidence = sums.log_evidence;
-    outcome.evidence_exactness = sums.evidence_exactness;
-    outcome.evidence_error = sums.evidence_error;
+    const LabelerStation summing{plugin.id,
+                                 session.host().labeler(plugin.id, check_options(plugin.options, {}, plugin.id))};
+    LabelingOutcome sums = solve(summing, problem, request, session.context());
+    take_sums(sums, outcome);
     outcome.facts.push_back({"probabilities", sums.guarantee});
   }
   if (file.maximize) outcome.facts.push_back({"maximised", "costs are minus the values, which the file maximises"});

@@ -92,7 +92,7 @@ class FilterTrial final : public MeshTrial {
 
  private:
   std::string flaw(const RawMesh& raw) const {
-    const Stations::Filter station{"", {&raw, [](const MeshFilter*) {}}};
+    const FilterStation station{"", {&raw, [](const MeshFilter*) {}}};
     RunContext quiet({.threads = 1});
     try {
       Mesh input(soup(), name);

@@ -7,7 +7,7 @@
 
 #include "base/errors.h"
 #include "inputs.h"
-#include "pipeline/labeling_problem.h"
+#include "pipeline/solve.h"
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope {

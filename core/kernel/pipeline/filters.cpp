@@ -40,12 +40,12 @@ void carry_on(TriangleSoup& soup, const MeshView& input, const std::string& filt
 
 }  // namespace
 
-PreparedMesh apply_filters(const Mesh& mesh, std::span<const Stations::Filter> filters, Context& context) {
+PreparedMesh apply_filters(const Mesh& mesh, std::span<const FilterStation> filters, Context& context) {
   PreparedMesh prepared;
   prepared.input = &mesh;
   prepared.origin.resize(mesh.view().face_count());
   std::iota(prepared.origin.begin(), prepared.origin.end(), 0);
-  for (const Stations::Filter& station : filters) {
+  for (const FilterStation& station : filters) {
     SoupSink sink;
     const Index faces = prepared.view().face_count();
     guard(station.id, [&] { station.plugin->apply(prepared.view(), context, sink); });

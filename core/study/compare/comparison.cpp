@@ -54,8 +54,7 @@ Comparison compare(Analysis& analysis, const Model& model, const Stations& stati
   std::vector<ClassBound> bounds;
   for (const Contender& contender : contenders) {
     Stations with = stations;
-    with.labeler = contender.labeler;
-    with.labeler_id = contender.id;
+    with.labeler = {contender.id, contender.labeler};
     label(analysis, model, with, request, context);
     double time_ms = 0;
     std::uint64_t nodes = 0;

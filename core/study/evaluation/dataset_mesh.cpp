@@ -3,17 +3,14 @@
 
 #include "io/mesh_io.h"
 #include "pipeline/filters.h"
-#include "plugin/plugin_host.h"
 
 namespace toposcope {
 namespace {
 
 /// Keeps what the quadric error keeps: faces long and thin along pipes, large on flats.
 Mesh decimated(Mesh mesh, Index faces, const std::string& name, PluginHost& host, Context& context) {
-  const PluginManifest& manifest = host.catalog().require(PluginKind::filters, "decimate", name);
   const GivenOption given[] = {{"faces", std::to_string(faces)}};
-  const Stations::Filter filter{
-      manifest.id, host.filter(manifest.id, check_options(manifest.options, given, name + ": filter 'decimate'"))};
+  const FilterStation filter = make_filter(host, "decimate", given, name);
   PreparedMesh prepared = apply_filters(mesh, {&filter, 1}, context);
   return prepared.filtered ? std::move(*prepared.filtered) : std::move(mesh);
 }

@@ -92,10 +92,9 @@ DepthFusion fusion_for(const Sample& exact, const ScanSettings& settings, double
 }
 
 /// The steps from the raw surface to the mesh.
-std::vector<Stations::Filter> filters_for(PluginHost& host, Index faces, int smoothing) {
-  const auto plugin = [&](const std::string& id, const std::vector<GivenOption>& given) {
-    const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id, "scan");
-    return Stations::Filter{id, host.filter(id, check_options(manifest.options, given, "scan: filter '" + id + "'"))};
+std::vector<FilterStation> filters_for(PluginHost& host, Index faces, int smoothing) {
+  const auto plugin = [&](const char* id, const std::vector<GivenOption>& given) {
+    return make_filter(host, id, given, "scan");
   };
   // Normalising is the slow step: it gets few faces more than are wanted, and needs no more than two rounds for that.
   return {plugin("taubin", {{"passes", std::to_string(smoothing)}}),

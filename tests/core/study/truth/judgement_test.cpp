@@ -15,8 +15,6 @@ namespace {
 class Judging : public ::testing::Test {
  protected:
   Judging() {
-    stations_.shapes["circle"] = test::shape("circle");
-    stations_.shapes["line-group"] = test::shape("line-group");
     result_.mean_edge = 0.1;
     result_.box.sides = {3, 4, 12};  // diagonal 13
     analysis_.classes.resize(1);
@@ -26,6 +24,7 @@ class Judging : public ::testing::Test {
     ModelFeature& feature = model_.features.emplace_back();
     feature.name = name;
     feature.shape.plugin = shape;
+    stations_.features.push_back({test::shape(shape), {}});
     analysis_.classes[0].features.push_back(static_cast<Index>(model_.features.size() - 1));
     FeatureReport& report = result_.features.emplace_back();
     report.name = name;
@@ -141,7 +140,7 @@ TEST_F(Judging, NamesThatTheModelCannotTellApartChangePlacesTogether) {
     relationship.plugin = plugin;
     relationship.features = {a, b};
     analysis_.classes[0].relationships.push_back(static_cast<Index>(model_.relationships.size() - 1));
-    stations_.relation_ordered.push_back(false);
+    stations_.relationships.emplace_back();
   };
   relate(0, 1, "reflective-symmetry");
   relate(2, 3, "concentric");
