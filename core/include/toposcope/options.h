@@ -16,12 +16,13 @@ enum class OptionType : std::uint32_t { real, integer, boolean, text };
 struct OptionSpec {
   const char* name;
   OptionType type;
-  const char* unit;           ///< "", "deg", "mean-edges", "diagonals", "s", ...
-  const char* default_value;  ///< as a user would write it; "" = must be given
-  const char* minimum;        ///< of a number, inclusive, in `unit`; "" = unbounded
-  const char* maximum;        ///< likewise
-  const char* meaning;        ///< one line
-  const char* choices = "";   ///< of a text: what it may be, "a|b|c"; "" = any text
+  const char* unit;            ///< "", "deg", "mean-edges", "diagonals", "s", ...
+  const char* default_value;   ///< as a user would write it; "" = must be given
+  const char* minimum;         ///< of a number, inclusive, in `unit`; "" = unbounded
+  const char* maximum;         ///< likewise
+  const char* meaning;         ///< one line
+  const char* choices = "";    ///< of a text: what it may be, "a|b|c"; "" = any text
+  const char* not_above = "";  ///< of a number: the row of the table that it may not exceed ("max"); "" = none
 };
 
 /// A checked value: the kernel has verified type, range and choice and filled in the defaults.
