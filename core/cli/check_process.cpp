@@ -18,6 +18,7 @@
 
 #include "base/errors.h"
 #include "examination.h"
+#include "interruption.h"
 #include "toposcope/system/programs.h"
 
 extern "C" char** environ;  // NOLINT(readability-redundant-declaration)
@@ -33,63 +34,88 @@ constexpr int patience_ms = 120'000;         // for one check
 constexpr int memory_patience_ms = 900'000;  // valgrind makes it thirty times slower
 constexpr int memory_errors_exit_code = 77;
 
-/// A file of its own, removed at the end.
-class TemporaryFile {
+/// A folder for all that a check leaves behind, removed with what is in it.
+class TemporaryFolder {
  public:
-  TemporaryFile() : path_((fs::temp_directory_path() / "toposcope-check-XXXXXX").string()) {
-    const int descriptor = mkstemp(path_.data());
-    if (descriptor < 0)
-      throw Error("the file " + path_ + " cannot be made (" + std::strerror(errno) + "); set TMPDIR to a folder that " +
-                      "may be written",
-                  1);
-    close(descriptor);
+  TemporaryFolder() : path_((fs::temp_directory_path() / "toposcope-check-XXXXXX").string()) {
+    if (!mkdtemp(path_.data()))
+      throw UsageError("the folder " + path_ + " cannot be made (" + std::strerror(errno) +
+                       "); set TMPDIR to a folder that may be written");
   }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() { unlink(path_.c_str()); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
   const std::string& path() const { return path_; }
-  /// Its first line that says something, cut to a readable length; empty where there is none.
-  std::string first_line(std::string_view containing = "") const {
-    std::ifstream stream(path_);
-    for (std::string line; std::getline(stream, line);)
-      if (!line.empty() && line.find(containing) != line.npos) return line.substr(0, 160);
-    return "";
-  }
 
  private:
   std::string path_;
 };
 
+/// A file's first line that says something, cut to a readable length; empty where there is none.
+std::string first_line(const std::string& file, std::string_view containing = "") {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);)
+    if (!line.empty() && line.find(containing) != line.npos) return line.substr(0, 160);
+  return "";
+}
+
+/// The environment with another folder for temporary files.
+std::vector<std::string> environment_with(const std::string& temporary) {
+  std::vector<std::string> all = {"TMPDIR=" + temporary};
+  for (char** each = environ; *each; ++each)
+    if (!std::string_view(*each).starts_with("TMPDIR=")) all.emplace_back(*each);
+  return all;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> all;
+  for (std::string& each : texts) all.push_back(each.data());
+  all.push_back(nullptr);
+  return all;
+}
+
 std::string own_program() {
   return fs::read_symlink("/proc/self/exe").string();
 }
 
-/// A child whose output goes to a file and whose report comes line by line.
+/// A child in a process group of its own, whose output goes to a file and whose report comes line by line.
 class Child {
  public:
-  Child(std::vector<std::string> command, const std::string& output) {
+  Child(std::vector<std::string> command, const std::string& output, const TemporaryFolder& folder,
+        const Context& context)
+      : context_(context) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("no pipe: ") + std::strerror(errno), 1);
     report_ = ends[0];
-    std::vector<char*> argv;
-    for (std::string& each : command) argv.push_back(each.data());
-    argv.push_back(nullptr);
+    std::vector<std::string> environment = environment_with(folder.path());
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // to be ended with all that it has started
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_TRUNC | O_APPEND, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND,
+                                     0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     posix_spawn_file_actions_adddup2(&actions, ends[1], report_descriptor);
-    const int error = posix_spawn(&process_, command[0].c_str(), &actions, nullptr, argv.data(), environ);
+    const int error = posix_spawn(&process_, command[0].c_str(), &actions, &attributes, pointers(command).data(),
+                                  pointers(environment).data());
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     if (error != 0) throw Error(command[0] + " cannot be started: " + std::strerror(error), 1);
+    group_ = process_;
   }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
   ~Child() {
     close(report_);
-    if (process_ > 0) kill(process_, SIGKILL), waitpid(process_, nullptr, 0);
+    if (group_ > 0) kill(-group_, SIGKILL);
+    if (process_ > 0) waitpid(process_, nullptr, 0);
   }
 
   enum class Read { line, end, silence };
@@ -101,10 +127,7 @@ class Child {
         buffer_.erase(0, at + 1);
         return Read::line;
       }
-      pollfd waiting{report_, POLLIN, 0};
-      const int ready = poll(&waiting, 1, timeout_ms);
-      if (ready < 0 && errno == EINTR) continue;
-      if (ready <= 0) return Read::silence;
+      if (!wait(timeout_ms)) return Read::silence;
       char bytes[4096];
       const ssize_t count = read(report_, bytes, sizeof bytes);
       if (count <= 0) return Read::end;
@@ -115,7 +138,7 @@ class Child {
   /// In words, after its report has ended.
   std::string end(int& exit_code) {
     int status = 0;
-    waitpid(process_, &status, 0);
+    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) stop_if_cancelled(context_, undone);
     process_ = 0;
     exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     if (WIFSIGNALED(status)) return fmt::format("crashed: {}", strsignal(WTERMSIG(status)));
@@ -123,7 +146,21 @@ class Child {
   }
 
  private:
-  pid_t process_ = 0;
+  static constexpr const char* undone = "the plugin at hand and those after it were not checked";
+
+  /// For something to read, in short turns: a signal may come between asking and waiting. \return false: in vain
+  bool wait(int timeout_ms) const {
+    constexpr int turn_ms = 100;
+    for (int waited = 0; waited < timeout_ms; waited += turn_ms) {
+      stop_if_cancelled(context_, undone);
+      pollfd waiting{report_, POLLIN, 0};
+      if (poll(&waiting, 1, turn_ms) > 0) return true;
+    }
+    return false;
+  }
+
+  const Context& context_;
+  pid_t process_ = 0, group_ = 0;
   int report_ = -1;
   std::string buffer_;
 };
@@ -158,9 +195,10 @@ class ReportSink final : public VerdictSink {
 
 }  // namespace
 
-std::vector<Verdict> examine_in_process(const fs::path& library) {
-  const TemporaryFile output;
-  Child child({own_program(), "plugins", "check", "--child", library.string()}, output.path());
+std::vector<Verdict> examine_in_process(const fs::path& library, const Context& context) {
+  const TemporaryFolder folder;
+  const std::string output = folder.file("output");
+  Child child({own_program(), "plugins", "check", "--child", library.string()}, output, folder, context);
   std::vector<Verdict> verdicts;
   std::string line, begun = "start", on;
   bool done = false;
@@ -179,7 +217,7 @@ std::vector<Verdict> examine_in_process(const fs::path& library) {
   }
   int exit_code = 0;
   const std::string words = child.end(exit_code);
-  const std::string said = output.first_line();
+  const std::string said = first_line(output);
   if (!done || exit_code != 0)
     verdicts.push_back({begun, Outcome::failed, on + words + (said.empty() ? "" : " (" + said + ")")});
   else if (!said.empty())
@@ -188,7 +226,7 @@ std::vector<Verdict> examine_in_process(const fs::path& library) {
   return verdicts;
 }
 
-Verdict examine_memory(const fs::path& library) {
+Verdict examine_memory(const fs::path& library, [[maybe_unused]] const Context& context) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return {
       "memory", Outcome::skipped,
@@ -196,11 +234,12 @@ Verdict examine_memory(const fs::path& library) {
 #endif
   const auto valgrind = find_program("valgrind");
   if (!valgrind) return {"memory", Outcome::skipped, "valgrind is not installed (apt-get install valgrind)"};
-  const TemporaryFile output, log;
+  const TemporaryFolder folder;
+  const std::string log = folder.file("log");
   Child child({valgrind->string(), "--quiet", "--leak-check=full", "--show-leak-kinds=definite",
                "--errors-for-leak-kinds=definite", fmt::format("--error-exitcode={}", memory_errors_exit_code),
-               "--log-file=" + log.path(), own_program(), "plugins", "check", "--brief", "--child", library.string()},
-              output.path());
+               "--log-file=" + log, own_program(), "plugins", "check", "--brief", "--child", library.string()},
+              folder.file("output"), folder, context);
   std::string line;
   bool done = false;
   Child::Read read = Child::Read::end;
@@ -211,8 +250,8 @@ Verdict examine_memory(const fs::path& library) {
   const std::string words = child.end(exit_code);
   if (done && exit_code == 0) return {"memory", Outcome::passed, "under valgrind no leak and no access out of bounds"};
   if (exit_code != memory_errors_exit_code) return {"memory", Outcome::failed, words + " under valgrind"};
-  std::string what = log.first_line("lost in loss record");
-  if (what.empty()) what = log.first_line();
+  std::string what = first_line(log, "lost in loss record");
+  if (what.empty()) what = first_line(log);
   return {"memory", Outcome::failed,
           "valgrind: " + what.substr(what.find("== ") == what.npos ? 0 : what.find("== ") + 3)};
 }

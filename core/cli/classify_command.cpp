@@ -4,11 +4,19 @@
 #include "base/errors.h"
 #include "commands.h"
 #include "model/read_model.h"
+#include "options.h"
+#include "output.h"
 #include "resources.h"
 #include "result/classification.h"
 #include "session.h"
 
 namespace toposcope::cli {
+namespace {
+
+struct ClassifyOptions : CommonOptions {
+  std::vector<fs::path> meshes;
+  std::string models;
+};
 
 int classify(const ClassifyOptions& options) {
   PipelineSession session(options);
@@ -31,9 +39,23 @@ int classify(const ClassifyOptions& options) {
     }
     const Classification classification = toposcope::classify(results);
     session.status("");
-    fmt::print("{}", options.json ? to_json_line(classification) : to_text(classification));
-    std::fflush(stdout);
+    say("{}", options.json ? to_json_line(classification) : to_text(classification));
+    flush_output();
   });
+}
+
+}  // namespace
+
+void add_classify(CLI::App& app, int& code) {
+  CLI::App& command = *app.add_subcommand("classify", "which class of objects explains a mesh best");
+  const auto options = std::make_shared<ClassifyOptions>();
+  add_meshes(command, options->meshes)->required();
+  command.add_option("--models", options->models, "a folder of models, or names separated by commas")
+      ->required()
+      ->type_name("DIR|LIST");
+  command.add_flag("--json", options->json, "print a JSON object per mesh");
+  add_common(command, *options);
+  command.callback([options, &code] { code = classify(*options); });
 }
 
 }  // namespace toposcope::cli

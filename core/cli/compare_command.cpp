@@ -3,12 +3,15 @@
 
 #include <set>
 
+#include "base/assignment.h"
 #include "base/errors.h"
 #include "commands.h"
 #include "compare/comparison.h"
 #include "index/index_document.h"
 #include "io/mesh_io.h"
 #include "model/read_model.h"
+#include "options.h"
+#include "output.h"
 #include "output_folder.h"
 #include "picture/stages.h"
 #include "report_files.h"
@@ -17,6 +20,15 @@
 
 namespace toposcope::cli {
 namespace {
+
+struct CompareOptions : CommonOptions {
+  std::vector<fs::path> meshes;
+  std::string model;
+  std::string labelers = "all";
+  double time_limit_s = 10;
+  fs::path out;  ///< empty: nothing is written
+  bool csv = false, markdown = false;
+};
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -35,10 +47,9 @@ Contender contender_of(const std::string& text, PluginHost& host) {
   const PluginManifest& plugin = host.catalog().require(PluginKind::labelers, parts[0], "--labelers");
   std::vector<GivenOption> given;
   for (std::size_t i = 1; i < parts.size(); ++i) {
-    const std::size_t equals = parts[i].find('=');
-    if (equals == parts[i].npos)
-      throw UsageError("--labelers: '" + text + "': expected id or id:option=value:option=value");
-    given.push_back({parts[i].substr(0, equals), parts[i].substr(equals + 1)});
+    const auto option = split_assignment(parts[i]);
+    if (!option) throw UsageError("--labelers: '" + text + "': expected id or id:option=value:option=value");
+    given.push_back(*option);
   }
   return {text, plugin.id,
           host.labeler(plugin.id, check_options(plugin.options, given, "--labelers: labeler '" + plugin.id + "'"))};
@@ -71,10 +82,10 @@ class Gallery {
   void add(const Comparison& comparison, std::vector<LabelerView> views, Context& context) {
     cards_.push_back({thumbnail_of(views.front().scene, context), ""});
     // Of one mesh, that on which labelers differ most: side by side on others they would look the same.
-    std::set<std::vector<std::pair<std::string, Index>>> labellings;
-    for (const Entry& entry : comparison.entries) labellings.insert(entry.labeling);
-    if (labellings.size() <= most_labellings_) return;
-    most_labellings_ = labellings.size();
+    std::set<std::vector<std::pair<std::string, Index>>> labelings;
+    for (const Entry& entry : comparison.entries) labelings.insert(entry.labeling);
+    if (labelings.size() <= most_labelings_) return;
+    most_labelings_ = labelings.size();
     views_ = std::move(views);
   }
   std::string index(const std::vector<Comparison>& comparisons) const {
@@ -84,10 +95,8 @@ class Gallery {
  private:
   std::vector<MeshCard> cards_;
   std::vector<LabelerView> views_;
-  std::size_t most_labellings_ = 0;
+  std::size_t most_labelings_ = 0;
 };
-
-}  // namespace
 
 int compare(const CompareOptions& options) {
   PipelineSession session(options);
@@ -114,10 +123,11 @@ int compare(const CompareOptions& options) {
     comparisons.push_back(toposcope::compare(analysis, model, stations, path.string(), contenders, request,
                                              truth ? &*truth : nullptr, session.context(),
                                              options.out.empty() ? LabelerObserver() : look));
+    stop_if_cancelled(session.context(), path.string() + " was not compared by all labelers");
     if (!options.out.empty()) gallery.add(comparisons.back(), std::move(views), session.context());
     session.status("");
-    if (text) fmt::print("{}", to_text(comparisons.back()));
-    std::fflush(stdout);
+    if (text) say("{}", to_text(comparisons.back()));
+    flush_output();
   });
   if (!options.out.empty()) {
     write_file(options.out / "comparison.json", to_json(comparisons));
@@ -125,14 +135,38 @@ int compare(const CompareOptions& options) {
     write_index(options.out, gallery.index(comparisons), session.context());
   }
   if (options.json)
-    fmt::print("{}", to_json(comparisons));
+    say("{}", to_json(comparisons));
   else if (options.csv)
-    fmt::print("{}", to_csv(comparisons));
+    say("{}", to_csv(comparisons));
   else if (options.markdown)
-    fmt::print("{}", to_markdown(totals(comparisons)));
+    say("{}", to_markdown(totals(comparisons)));
   else if (comparisons.size() > 1)
-    fmt::print("{}", to_text(totals(comparisons)));
+    say("{}", to_text(totals(comparisons)));
   return code;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& code) {
+  CLI::App& command = *app.add_subcommand("compare", "the same labelling problem under several labelers, as a table");
+  const auto options = std::make_shared<CompareOptions>();
+  add_meshes(command, options->meshes, "; <mesh>.truth.json beside one tells what is right")->required();
+  add_model(command, options->model)->required();
+  command
+      .add_option("--labelers", options->labelers,
+                  "separated by commas, each with its own options: annealing:sweeps=50,least-error; all: every one")
+      ->type_name("A,B")
+      ->capture_default_str();
+  command.add_option("--time-limit", options->time_limit_s, "seconds for each labeler and problem")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command.add_option("--out", options->out, "write index.html, comparison.json and .csv to DIR")->type_name("DIR");
+  add_table_formats(command, options->json, options->csv, options->markdown, "mesh and labeler");
+  add_pipeline(command, *options);
+  add_seed(command, options->seed);
+  add_session(command, *options);
+  command.callback([options, &code] { code = compare(*options); });
 }
 
 }  // namespace toposcope::cli

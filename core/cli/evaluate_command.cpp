@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <cctype>
 #include <optional>
+#include <set>
 
+#include "base/errors.h"
+#include "base/file_name.h"
 #include "base/text_file.h"
 #include "commands.h"
 #include "evaluation/evaluation.h"
 #include "index/index_document.h"
 #include "io/mesh_io.h"
 #include "model/read_model.h"
+#include "options.h"
+#include "output.h"
 #include "output_folder.h"
 #include "picture/stages.h"
 #include "report_files.h"
@@ -19,16 +23,39 @@
 namespace toposcope::cli {
 namespace {
 
+struct EvaluateOptions : CommonOptions {
+  std::vector<fs::path> datasets;
+  std::string model;  ///< empty: the data set's
+  fs::path out, baseline;
+  bool reports = false;  ///< one for each mesh
+  bool csv = false, markdown = false;
+};
+
 std::string title(const Evaluation& evaluation) {
   return evaluation.summary.empty() ? evaluation.dataset : evaluation.summary;
 }
 
-/// A folder's name from a mesh's, and part of an address.
-std::string folder_name(const std::string& name) {
-  std::string folder = name;
-  for (char& c : folder)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
-  return folder;
+/// A folder for each mesh, also where several have one name.
+std::vector<fs::path> folders_of(const Dataset& dataset) {
+  std::vector<fs::path> folders;
+  std::set<std::string> taken;
+  for (const DatasetMesh& mesh : dataset.meshes) {
+    const std::string name = file_name(mesh.name);
+    std::string own = name;
+    for (int number = 2; !taken.insert(own).second; ++number) own = name + "-" + std::to_string(number);
+    folders.push_back(fs::path(file_name(dataset.name)) / own);
+  }
+  return folders;
+}
+
+/// What was not evaluated, with the reason; empty: nothing.
+std::string not_evaluated(const Evaluation& evaluation) {
+  std::vector<std::string> names;
+  for (const MeshEvaluation& mesh : evaluation.meshes)
+    if (!mesh.error.empty()) names.push_back(mesh.name + " (" + mesh.error + ")");
+  if (names.empty()) return "";
+  return evaluation.dataset + ": " + not_done(evaluation.meshes.size(), "meshes", names) +
+         "; their features count as missed";
 }
 
 /// Pictures and reports of the meshes of one data set.
@@ -36,14 +63,14 @@ class Gallery {
  public:
   /// \param page  null: no reports
   Gallery(const Dataset& dataset, const Model& model, const fs::path& out, const Page* page)
-      : dataset_(dataset), model_(model), out_(out), page_(page), cards_(dataset.meshes.size()) {}
+      : model_(model), out_(out), page_(page), folders_(folders_of(dataset)), cards_(dataset.meshes.size()) {}
 
   void add(const MeshAtHand& at) {
     MeshCard& card = cards_[at.number];
     const Truth* truth = at.known.truth.features.empty() ? nullptr : &at.known.truth;
     card.thumbnail = thumbnail_of(make_scene(at.analysis, model_, at.result, truth, found_alone), at.context);
     if (!page_) return;
-    const fs::path folder = fs::path(folder_name(dataset_.name)) / folder_name(dataset_.meshes[at.number].name);
+    const fs::path& folder = folders_[at.number];
     make_folder(out_ / folder, "--out");
     const std::string document = to_json(make_scene(at.analysis, model_, at.result, truth), program_name());
     write_file(out_ / folder / "result.json", to_json(at.result));
@@ -54,14 +81,12 @@ class Gallery {
   std::vector<MeshCard> take() { return std::move(cards_); }
 
  private:
-  const Dataset& dataset_;
   const Model& model_;
   const fs::path& out_;
   const Page* page_;
+  std::vector<fs::path> folders_;
   std::vector<MeshCard> cards_;
 };
-
-}  // namespace
 
 int evaluate(const EvaluateOptions& options) {
   PipelineSession session(options);
@@ -76,13 +101,13 @@ int evaluate(const EvaluateOptions& options) {
   std::optional<Page> page;
   if (options.reports) page.emplace("report.html", "", session.context());
 
+  int code = 0;
   std::vector<Evaluation> evaluations;
   std::vector<std::vector<MeshCard>> cards;
   std::string text, markdown;
   for (const Dataset& dataset : datasets) {
     for (const std::string& pattern : dataset.absent)
-      fmt::print(stderr, "toposcope: warning: {}: no file matches {}; these meshes are left out\n", dataset.name,
-                 pattern);
+      complain("warning: " + dataset.name + ": no file matches " + pattern + "; these meshes are left out");
     session.status(dataset.name);
     const Model model = read_model(find_resource("models", dataset.model), &session.host().catalog());
     const Stations stations = session.stations(model);
@@ -97,15 +122,19 @@ int evaluate(const EvaluateOptions& options) {
     if (!baseline.empty())
       for (Table& table : changes(evaluation, baseline, options.baseline.string())) all.push_back(std::move(table));
     const std::string part = fmt::format("{}\n{}\n{}", title(evaluation), headline(evaluation), to_text(all));
-    if (!options.json && !options.csv && !options.markdown) fmt::print("{}\n", part);
+    if (!options.json && !options.csv && !options.markdown) say("{}\n", part);
     text += part + "\n";
     markdown += fmt::format("## {}\n\n{}.\n{}\n", title(evaluation), headline(evaluation), to_markdown(all));
+    if (const std::string undone = not_evaluated(evaluation); !undone.empty()) {
+      complain(undone);
+      code = MeshError("").exit_code;
+    }
     evaluations.push_back(std::move(evaluation));
-    std::fflush(stdout);
+    flush_output();
   }
-  if (options.json) fmt::print("{}", to_json(evaluations));
-  if (options.csv) fmt::print("{}", to_csv(evaluations));
-  if (options.markdown) fmt::print("{}", markdown);
+  if (options.json) say("{}", to_json(evaluations));
+  if (options.csv) say("{}", to_csv(evaluations));
+  if (options.markdown) say("{}", markdown);
   if (!options.out.empty()) {
     write_file(options.out / "evaluation.txt", text);
     write_file(options.out / "evaluation.md", markdown);
@@ -113,7 +142,28 @@ int evaluate(const EvaluateOptions& options) {
     write_file(options.out / "evaluation.csv", to_csv(evaluations));
     write_index(options.out, evaluation_index(evaluations, cards, program_name()), session.context());
   }
-  return 0;
+  return code;
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, int& code) {
+  CLI::App& command = *app.add_subcommand("evaluate", "label meshes whose truth is known, and say how good it is");
+  const auto options = std::make_shared<EvaluateOptions>();
+  command.add_option("dataset", options->datasets, "data sets: which meshes, which model")
+      ->required()
+      ->type_name("DATASET.yaml...");
+  add_model(command, options->model, " to use instead of the data set's");
+  CLI::Option* out =
+      command.add_option("--out", options->out, "write index.html, evaluation.txt, .md, .json and .csv to DIR")
+          ->type_name("DIR");
+  command.add_flag("--reports", options->reports, "write a report for each mesh too, to DIR/<data set>/<mesh>/")
+      ->needs(out);
+  command.add_option("--baseline", options->baseline, "an earlier evaluation.json: show what changed")
+      ->type_name("FILE");
+  add_table_formats(command, options->json, options->csv, options->markdown, "mesh and feature");
+  add_common(command, *options);
+  command.callback([options, &code] { code = evaluate(*options); });
 }
 
 }  // namespace toposcope::cli

@@ -4,11 +4,17 @@
 #include "commands.h"
 #include "export/export.h"
 #include "io/mesh_io.h"
+#include "options.h"
+#include "output.h"
 #include "session.h"
 #include "stored_results.h"
 
 namespace toposcope::cli {
 namespace {
+
+struct ExportOptions : ResultOptions {
+  std::vector<std::string> formats = {"gltf", "vtp", "slicer"};
+};
 
 /// \return the file's name and what is in it
 std::pair<std::string, std::string> exported(const LabelledMesh& labelled, const std::string& format) {
@@ -17,17 +23,30 @@ std::pair<std::string, std::string> exported(const LabelledMesh& labelled, const
   return {"features.mrk.json", to_slicer_markups(labelled)};
 }
 
-}  // namespace
-
 int export_results(const ExportOptions& options) {
   return for_each_result(options.results, options.mesh, [&](const fs::path& folder) {
     const LabelledMesh labelled = read_labelled_mesh(folder / "result.json", options.mesh);
     for (const std::string& format : options.formats) {
       const auto [name, content] = exported(labelled, format);
       write_file(folder / name, content);
-      if (!options.quiet) fmt::print("{}\n", (folder / name).string());
+      if (!options.quiet) say("{}\n", (folder / name).string());
     }
   });
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, int& code) {
+  CLI::App& command = *app.add_subcommand("export", "results as files for Blender, ParaView, 3D Slicer and others");
+  const auto options = std::make_shared<ExportOptions>();
+  command
+      .add_option("--format", options->formats, "gltf (features.glb), vtp (features.vtp), slicer (features.mrk.json)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"gltf", "vtp", "slicer"}))
+      ->capture_default_str();
+  add_results(command, *options);
+  command.callback([options, &code] { code = export_results(*options); });
 }
 
 }  // namespace toposcope::cli

@@ -4,11 +4,15 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/assignment.h"
 #include "base/errors.h"
 #include "commands.h"
 #include "formats/problem_io.h"
+#include "options.h"
+#include "output.h"
 #include "pipeline/solve.h"
 #include "session.h"
 #include "toposcope/labeling/tools.h"
@@ -16,16 +20,25 @@
 namespace toposcope::cli {
 namespace {
 
+struct LabelOptions : CommonOptions {
+  fs::path problem;
+  fs::path save;  ///< empty: not written
+  std::size_t k_best = 1;
+  double within = std::numeric_limits<double>::infinity();
+  double time_limit_s = 60;
+  bool marginals = false;
+};
+
 using nlohmann::ordered_json;
 
 std::shared_ptr<const Labeler> make_labeler(const LabelOptions& options, const std::string& id, PluginHost& host) {
   const PluginManifest& plugin = host.catalog().require(PluginKind::labelers, id, "--labeler");
   std::vector<GivenOption> given;
   for (const std::string& text : options.overrides) {
-    const std::size_t equals = text.find('=');
-    if (!text.starts_with("labeler.") || equals == text.npos)
+    const auto option = split_assignment(text);
+    if (!option || !option->first.starts_with("labeler."))
       throw UsageError("--set " + text + ": expected labeler.option=value");
-    given.push_back({text.substr(8, equals - 8), text.substr(equals + 1)});
+    given.emplace_back(option->first.substr(8), option->second);
   }
   return host.labeler(id, check_options(plugin.options, given, "--set: labeler '" + plugin.id + "'"));
 }
@@ -96,7 +109,7 @@ std::string as_json(const LabelingProblem& problem, const LabelingOutcome& outco
     root["removed"].push_back({{"variable", problem.variables[removed.variable].name},
                                {"value", value_name(problem.variables[removed.variable], removed.value)},
                                {"reason", removed.reason}});
-  return root.dump() + "\n";
+  return root.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string as_text(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& labeler,
@@ -148,8 +161,6 @@ void cut_at_top(LabelingOutcome& outcome, double top) {
   }
 }
 
-}  // namespace
-
 int label(const LabelOptions& options) {
   Session session(options);
   if (!options.save.empty()) require_problem_extension(options.save);
@@ -177,8 +188,35 @@ int label(const LabelOptions& options) {
   }
   if (file.maximize) outcome.facts.push_back({"maximised", "costs are minus the values, which the file maximises"});
   session.status("");
-  fmt::print("{}", options.json ? as_json(problem, outcome, id, time_ms) : as_text(problem, outcome, id, time_ms));
+  say("{}", options.json ? as_json(problem, outcome, id, time_ms) : as_text(problem, outcome, id, time_ms));
   return session.context().cancelled() ? interrupted_exit_code : 0;
+}
+
+}  // namespace
+
+void add_label(CLI::App& app, int& code) {
+  CLI::App& command = *app.add_subcommand("label", "solve a labelling problem from a file");
+  const auto options = std::make_shared<LabelOptions>();
+  command.add_option("problem", options->problem, "JSON, CFN, WCSP or UAI file")->required()->type_name("PROBLEM");
+  command.add_option("--labeler", options->labeler, "labeler; default: least-error")->type_name("ID");
+  command.add_option("--k-best", options->k_best, "how many labellings to list, the best first")
+      ->type_name("K")
+      ->check(whole_number(1, 1000000))
+      ->capture_default_str();
+  command.add_option("--within", options->within, "leave out what costs more than the best by over T")
+      ->type_name("T")
+      ->check(CLI::NonNegativeNumber);
+  command.add_flag("--marginals", options->marginals, "the probability of every value");
+  command.add_option("--time-limit", options->time_limit_s, "seconds")
+      ->type_name("S")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command.add_option("--save-problem", options->save, "write the problem too, in the format of its extension")
+      ->type_name("FILE");
+  command.add_flag("--json", options->json, "print a JSON object");
+  add_seed(command, options->seed);
+  add_session(command, *options);
+  command.callback([options, &code] { code = label(*options); });
 }
 
 }  // namespace toposcope::cli

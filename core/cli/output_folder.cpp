@@ -2,8 +2,10 @@
 #include "output_folder.h"
 
 #include <set>
+#include <system_error>
 
 #include "base/errors.h"
+#include "base/file_name.h"
 
 namespace toposcope::cli {
 namespace fs = std::filesystem;
@@ -11,7 +13,7 @@ namespace fs = std::filesystem;
 void refuse_same_stem(const std::vector<fs::path>& meshes, const std::string& option) {
   std::set<std::string> stems;
   for (const fs::path& mesh : meshes)
-    if (!stems.insert(mesh.stem().string()).second)
+    if (!stems.insert(file_name(mesh.stem().string())).second)
       throw UsageError("two meshes are named '" + mesh.stem().string() +
                        "': their results would have the same name below " + option + "; run them apart");
 }
@@ -19,8 +21,10 @@ void refuse_same_stem(const std::vector<fs::path>& meshes, const std::string& op
 void make_folder(const fs::path& folder, const std::string& option) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder))
-    throw UsageError(folder.string() + ": cannot make this folder; name another with " + option);
+  if (!error && !fs::is_directory(folder, error) && !error) error = std::make_error_code(std::errc::not_a_directory);
+  if (error)
+    throw UsageError(folder.string() + ": cannot make this folder (" + error.message() + "); name another with " +
+                     option);
 }
 
 }  // namespace toposcope::cli

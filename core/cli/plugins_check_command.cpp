@@ -7,11 +7,23 @@
 #include "base/errors.h"
 #include "check_process.h"
 #include "commands.h"
+#include "interruption.h"
+#include "options.h"
+#include "output.h"
 #include "plugin/catalog.h"
 #include "plugin/library.h"
 
 namespace toposcope::cli {
 namespace {
+
+struct CheckOptions {
+  std::vector<fs::path> plugin_dirs;
+  std::vector<fs::path> paths;
+  bool json = false;
+  bool valgrind = false;  ///< for errors of memory too
+  fs::path child;         ///< the library to examine in this process; for the program itself
+  bool brief = false;
+};
 
 /// A plugin that was asked for, as far as its files tell.
 struct Checked {
@@ -38,12 +50,14 @@ Checked of_library(const fs::path& library) {
 }
 
 /// Everything that the paths name: a library, or a folder with manifests.
-std::vector<Checked> collect(const PluginsOptions& options) {
+std::vector<Checked> collect(const CheckOptions& options) {
   std::vector<Checked> all;
   std::vector<PluginFolder> folders;
   for (const fs::path& path : options.paths) {
-    if (!fs::exists(path)) throw UsageError(path.string() + ": no such file or folder");
-    if (fs::is_directory(path))
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status)) throw UsageError(path.string() + ": no such file or folder (" + error.message() + ")");
+    if (fs::is_directory(status))
       folders.push_back({fs::absolute(path), true});
     else
       all.push_back(of_library(path));
@@ -68,32 +82,32 @@ const char* word(Outcome outcome) {
   return outcome == Outcome::passed ? "ok" : outcome == Outcome::failed ? "FAIL" : "skip";
 }
 
-void print(const Checked& plugin) {
-  fmt::print("{}{}{}{}\n", plugin.id, plugin.version.empty() ? "" : " " + plugin.version,
-             plugin.kind.empty() ? "" : " (" + plugin.kind + ")", ": " + plugin.library.string());
+void show(const Checked& plugin) {
+  say("{}{}{}{}\n", plugin.id, plugin.version.empty() ? "" : " " + plugin.version,
+      plugin.kind.empty() ? "" : " (" + plugin.kind + ")", ": " + plugin.library.string());
   for (const Verdict& verdict : plugin.verdicts)
-    fmt::print("  {:<5} {:<17} {}\n", word(verdict.outcome), verdict.check, verdict.detail);
-  std::fflush(stdout);
+    say("  {:<5} {:<17} {}\n", word(verdict.outcome), verdict.check, verdict.detail);
+  flush_output();
 }
 
-}  // namespace
-
-int plugins_check(const PluginsOptions& options) {
+int plugins_check(const CheckOptions& options) {
   if (!options.child.empty()) return examine_here(options.child, options.brief);
   std::vector<Checked> plugins = collect(options);
+  RunContext context({.threads = 1});  // what a signal cancels
+  const Interruption interruption(context);
   nlohmann::ordered_json root = {{"plugins", nlohmann::json::array()}};
   std::size_t good = 0;
   for (Checked& plugin : plugins) {
     if (plugin.verdicts.empty()) {
-      plugin.verdicts = examine_in_process(fs::absolute(plugin.library));
+      plugin.verdicts = examine_in_process(fs::absolute(plugin.library), context);
       const bool ran = std::none_of(plugin.verdicts.begin(), plugin.verdicts.end(),
                                     [](const Verdict& v) { return v.check == "run"; });  // it lacks a program
       if (options.valgrind && ran && plugin.passes())
-        plugin.verdicts.push_back(examine_memory(fs::absolute(plugin.library)));
+        plugin.verdicts.push_back(examine_memory(fs::absolute(plugin.library), context));
     }
     good += plugin.passes() ? 1 : 0;
     if (!options.json) {
-      print(plugin);
+      show(plugin);
       continue;
     }
     nlohmann::ordered_json checks = nlohmann::json::array();
@@ -107,10 +121,24 @@ int plugins_check(const PluginsOptions& options) {
                                {"checks", checks}});
   }
   if (options.json)
-    fmt::print("{}\n", root.dump(1));
+    say("{}\n", root.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   else
-    fmt::print("{} pass, {} fail\n", good, plugins.size() - good);
+    say("{} pass, {} fail\n", good, plugins.size() - good);
   return good == plugins.size() ? 0 : 4;
+}
+
+}  // namespace
+
+void add_plugins_check(CLI::App& plugins, int& code) {
+  CLI::App& command = *plugins.add_subcommand("check", "hold plugins against what every plugin of its kind owes");
+  const auto options = std::make_shared<CheckOptions>();
+  command.add_option("path", options->paths, "libraries, folders of them or build folders; none: all that are found");
+  command.add_flag("--valgrind", options->valgrind, "also under valgrind: leaks and accesses out of bounds");
+  command.add_option("--child", options->child)->group("");
+  command.add_flag("--brief", options->brief)->group("");
+  command.add_flag("--json", options->json, "print JSON");
+  add_plugin_dirs(command, options->plugin_dirs);
+  command.callback([options, &code] { code = plugins_check(*options); });
 }
 
 }  // namespace toposcope::cli

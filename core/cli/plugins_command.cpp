@@ -9,12 +9,21 @@
 #include "base/text_file.h"
 #include "commands.h"
 #include "io/mesh_io.h"
+#include "options.h"
+#include "output.h"
 #include "plugin/option_check.h"
 #include "plugin/plugin_page.h"
 #include "session.h"
 
 namespace toposcope::cli {
 namespace {
+
+struct PluginsOptions {
+  std::vector<fs::path> plugin_dirs;
+  std::string id;
+  fs::path page;  ///< the documentation page whose tables to renew
+  bool json = false;
+};
 
 constexpr PluginKind kinds[] = {PluginKind::filters, PluginKind::worksets, PluginKind::shapes, PluginKind::relations,
                                 PluginKind::labelers};
@@ -23,11 +32,11 @@ constexpr const char* dimensions[] = {"points", "lines", "surfaces", "volumes"};
 
 void print_table(const char* title, const std::vector<OptionRow>& rows) {
   if (rows.empty()) return;
-  fmt::print("\n{}:\n", title);
+  say("\n{}:\n", title);
   for (const OptionRow& row : rows) {
-    fmt::print("  {}  ({}", row.name, describe_constraint(row));
-    fmt::print("{})\n      {}\n", row.default_value.empty() ? "; must be given" : "; default " + row.default_value,
-               row.meaning);
+    say("  {}  ({}", row.name, describe_constraint(row));
+    say("{})\n      {}\n", row.default_value.empty() ? "; must be given" : "; default " + row.default_value,
+        row.meaning);
   }
 }
 
@@ -50,8 +59,6 @@ const PluginManifest& find(const PluginCatalog& catalog, const std::string& id) 
                    "; toposcope plugins list shows all");
 }
 
-}  // namespace
-
 int plugins_list(const PluginsOptions& options) {
   const PluginCatalog catalog = open_catalog(options.plugin_dirs, false);
   if (options.json) {
@@ -66,16 +73,16 @@ int plugins_list(const PluginsOptions& options) {
                                    {"not_available", missing_programs(*plugin)}});
     for (const PluginProblem& problem : catalog.problems())
       root["problems"].push_back({{"file", problem.file.string()}, {"message", problem.message}});
-    fmt::print("{}\n", root.dump(1));
+    say("{}\n", root.dump(1));
     return 0;
   }
   for (PluginKind kind : kinds) {
-    fmt::print("{}\n", to_string(kind));
+    say("{}\n", to_string(kind));
     for (const PluginManifest* plugin : catalog.all(kind))
-      fmt::print("  {:<22}{:<8} {}{}\n", plugin->id, plugin->version, plugin->summary, availability(*plugin));
+      say("  {:<22}{:<8} {}{}\n", plugin->id, plugin->version, plugin->summary, availability(*plugin));
   }
-  if (!catalog.problems().empty()) fmt::print("cannot be used\n");
-  for (const PluginProblem& problem : catalog.problems()) fmt::print("  {}\n", problem.message);
+  if (!catalog.problems().empty()) say("cannot be used\n");
+  for (const PluginProblem& problem : catalog.problems()) say("  {}\n", problem.message);
   return 0;
 }
 
@@ -92,19 +99,39 @@ int plugins_describe(const PluginsOptions& options) {
     return 0;
   }
   if (options.json) {
-    fmt::print("{}", manifest_to_json(plugin));
+    say("{}", manifest_to_json(plugin));
     return 0;
   }
-  fmt::print("{} {} ({})\n{}\n", plugin.id, plugin.version, to_string(plugin.kind), plugin.summary);
-  if (!plugin.citation.empty()) fmt::print("source: {}\n", plugin.citation);
-  if (!plugin.unit.empty()) fmt::print("residual in: {}\n", plugin.unit);
-  if (plugin.dimension >= 0) fmt::print("fits: {}\n", dimensions[static_cast<std::size_t>(plugin.dimension)]);
-  if (!plugin.programs.empty()) fmt::print("runs: {}{}\n", fmt::join(plugin.programs, ", "), availability(plugin));
-  if (!plugin.provides.empty()) fmt::print("\nprovides:\n");
-  for (const ProvidedRow& row : plugin.provides) fmt::print("  {:<14}{}\n", row.name, row.meaning);
+  say("{} {} ({})\n{}\n", plugin.id, plugin.version, to_string(plugin.kind), plugin.summary);
+  if (!plugin.citation.empty()) say("source: {}\n", plugin.citation);
+  if (!plugin.unit.empty()) say("residual in: {}\n", plugin.unit);
+  if (plugin.dimension >= 0) say("fits: {}\n", dimensions[static_cast<std::size_t>(plugin.dimension)]);
+  if (!plugin.programs.empty()) say("runs: {}{}\n", fmt::join(plugin.programs, ", "), availability(plugin));
+  if (!plugin.provides.empty()) say("\nprovides:\n");
+  for (const ProvidedRow& row : plugin.provides) say("  {:<14}{}\n", row.name, row.meaning);
   print_table("options, set in the pipeline or by --set", plugin.options);
   print_table("arguments, given in the model", plugin.arguments);
   return 0;
+}
+
+}  // namespace
+
+void add_plugins(CLI::App& app, int& code) {
+  CLI::App& command = *app.add_subcommand("plugins", "list, describe, check or begin plugins");
+  command.require_subcommand(1);
+  CLI::App& list = *command.add_subcommand("list", "all plugins that can be found");
+  CLI::App& describe = *command.add_subcommand("describe", "a plugin's options and what it provides");
+  const auto options = std::make_shared<PluginsOptions>();
+  describe.add_option("id", options->id, "the plugin's id")->required();
+  describe.add_option("--page", options->page, "renew the tables of its documentation page")->type_name("FILE.md");
+  for (CLI::App* each : {&list, &describe}) {
+    each->add_flag("--json", options->json, "print JSON");
+    add_plugin_dirs(*each, options->plugin_dirs);
+  }
+  list.callback([options, &code] { code = plugins_list(*options); });
+  describe.callback([options, &code] { code = plugins_describe(*options); });
+  add_plugins_check(command, code);
+  add_plugins_new(command, code);
 }
 
 }  // namespace toposcope::cli

@@ -8,6 +8,8 @@
 #include "base/text_file.h"
 #include "commands.h"
 #include "io/mesh_io.h"
+#include "options.h"
+#include "output.h"
 #include "plugin/catalog.h"
 #include "plugin/plugin_id.h"
 #include "resources.h"
@@ -15,6 +17,11 @@
 
 namespace toposcope::cli {
 namespace {
+
+struct NewOptions {
+  std::vector<fs::path> plugin_dirs;
+  std::string kind, id;
+};
 
 /// A kind as its folder is called, or one of it: "shapes", "shape".
 PluginKind kind_of(const std::string& name) {
@@ -43,9 +50,7 @@ std::string replaced(std::string text, const std::string& mark, const std::strin
   return text;
 }
 
-}  // namespace
-
-int plugins_new(const PluginsOptions& options) {
+int plugins_new(const NewOptions& options) {
   const PluginKind kind = kind_of(options.kind);
   const std::string& id = options.id;
   refuse_id(id, open_catalog(options.plugin_dirs, false));
@@ -65,15 +70,25 @@ int plugins_new(const PluginsOptions& options) {
     const std::string name = replaced(file.filename().string(), "template", id);
     const std::string text = read_text_file(file, "template");
     write_file(folder / name, replaced(replaced(text, "@ID@", id), "@VERSION@", TOPOSCOPE_VERSION));
-    fmt::print("  {}/{}\n", id, name);
+    say("  {}/{}\n", id, name);
   }
-  fmt::print(
-      "\n  cd {0}\n  cmake -B build && cmake --build build     build it\n"
+  say("\n  cd {0}\n  cmake -B build && cmake --build build     build it\n"
       "  ctest --test-dir build                    its test, and the conformance check\n"
       "  toposcope plugins check build             the check alone, line by line\n"
       "  TOPOSCOPE_PLUGIN_PATH=$PWD/build toposcope plugins describe {0}\n",
       id);
   return 0;
+}
+
+}  // namespace
+
+void add_plugins_new(CLI::App& plugins, int& code) {
+  CLI::App& command = *plugins.add_subcommand("new", "write a plugin that works, to be changed into yours");
+  const auto options = std::make_shared<NewOptions>();
+  command.add_option("kind", options->kind, "workset, shape, relation, labeler or filter")->required();
+  command.add_option("name", options->id, "the plugin's id and folder: lower-case words joined by '-'")->required();
+  add_plugin_dirs(command, options->plugin_dirs);
+  command.callback([options, &code] { code = plugins_new(*options); });
 }
 
 }  // namespace toposcope::cli

@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "base/assignment.h"
 #include "base/errors.h"
+#include "base/file_name.h"
 #include "commands.h"
 #include "io/mesh_io.h"
+#include "options.h"
+#include "output.h"
 #include "output_folder.h"
 #include "pipeline/filters.h"
 #include "plugin/option_check.h"
@@ -15,6 +20,16 @@
 
 namespace toposcope::cli {
 namespace {
+
+struct PrepareOptions : CommonOptions {
+  std::vector<fs::path> meshes;
+  fs::path out;
+  std::optional<std::uint32_t> faces, decimate;
+  std::optional<double> edge;  ///< in the mesh's own unit
+  std::string smooth;          ///< passes; empty: not asked for
+};
+
+constexpr std::uint64_t most_faces = 100'000'000;
 
 /// A filter that the command line asks for.
 struct Step {
@@ -31,15 +46,16 @@ std::vector<Step> steps_of(const PrepareOptions& options) {
   if (options.faces) steps.push_back({"--faces", "normalise", {{"faces", std::to_string(*options.faces)}}});
   if (options.edge) steps.push_back({"--edge", "normalise", {}});  // its length is relative to each mesh
   for (const std::string& setting : options.overrides) {
-    const std::size_t equals = setting.find('='), dot = setting.find('.', 8);
-    if (!setting.starts_with("filters.") || equals == std::string::npos || dot >= equals)
+    const auto option = split_assignment(setting);
+    const std::size_t dot = option ? option->first.find('.', 8) : std::string::npos;
+    if (!setting.starts_with("filters.") || dot == std::string::npos)
       throw UsageError("--set '" + setting + "': expected filters.ID.option=value");
     const std::string id = setting.substr(8, dot - 8);
     const auto step = std::find_if(steps.begin(), steps.end(), [&](const Step& s) { return s.id == id; });
     if (step == steps.end())
       throw UsageError("--set '" + setting + "': filter '" + id +
                        "' is not applied; --smooth applies taubin, --decimate decimate, --faces and --edge normalise");
-    step->options.emplace_back(setting.substr(dot + 1, equals - dot - 1), setting.substr(equals + 1));
+    step->options.emplace_back(option->first.substr(dot + 1), option->second);
   }
   return steps;
 }
@@ -65,13 +81,14 @@ Step for_mesh(Step step, const PrepareOptions& options, double diagonal) {
 }
 
 bool is_folder(const PrepareOptions& options) {
-  return options.meshes.size() > 1 || options.out.filename().empty() || fs::is_directory(options.out);
+  std::error_code ignored;
+  return options.meshes.size() > 1 || options.out.filename().empty() || fs::is_directory(options.out, ignored);
 }
 
 /// Where a mesh goes; empty: nowhere.
 fs::path target_of(const PrepareOptions& options, const fs::path& mesh) {
   if (options.out.empty() || !is_folder(options)) return options.out;
-  return options.out / (mesh.stem().string() + ".ply");
+  return options.out / (file_name(mesh.stem().string()) + ".ply");
 }
 
 void check_output(const PrepareOptions& options) {
@@ -116,7 +133,8 @@ class Preparer {
       done.prepared = summary_of(made.mesh.view(), made.repair);
     }
     const fs::path target = target_of(options_, path);
-    if (session_.context().cancelled() || target.empty()) return done;
+    stop_if_cancelled(session_.context(), done.mesh_path + " was not prepared");
+    if (target.empty()) return done;
     write_mesh(target, made.mesh.view().positions, made.mesh.view().triangles,
                {.input_faces = made.mesh.face_origin()});
     done.written = target.string();
@@ -150,7 +168,15 @@ class Preparer {
   std::vector<Step> steps_;
 };
 
-}  // namespace
+/// `--smooth scan.ply` means the default and a mesh.
+void sort_out_smooth(const CLI::Option* smooth, PrepareOptions& options) {
+  if (smooth->count() == 0) return;
+  const std::string given = options.smooth;
+  const bool number = !given.empty() && given.find_first_not_of("+-.0123456789eE") == given.npos;
+  if (number) return;
+  options.smooth = "10";
+  if (!given.empty()) options.meshes.insert(options.meshes.begin(), given);
+}
 
 int prepare(const PrepareOptions& options) {
   if (options.edge && !(*options.edge > 0 && std::isfinite(*options.edge)))
@@ -160,13 +186,41 @@ int prepare(const PrepareOptions& options) {
   check_output(options);
   return for_each_mesh(options.meshes, session, [&](const fs::path& path) {
     const Preparation done = preparer.prepare(path);
-    if (session.context().cancelled()) return;
     session.status("");
     if (options.json)
-      fmt::print("{}", to_json_line(done));
+      say("{}", to_json_line(done));
     else if (!options.quiet)
-      fmt::print("{}\n", to_text(done));
-    std::fflush(stdout);
+      say("{}\n", to_text(done));
+    flush_output();
+  });
+}
+
+}  // namespace
+
+void add_prepare(CLI::App& app, int& code) {
+  CLI::App& command = *app.add_subcommand("prepare", "repair meshes, change their resolution, say what they are like");
+  const auto options = std::make_shared<PrepareOptions>();
+  add_meshes(command, options->meshes);
+  command.add_option("-o,--out", options->out, "mesh to write; of several meshes, or with a folder: DIR/<mesh>.ply")
+      ->type_name("MESH|DIR");
+  CLI::Option* smooth = command.add_option("--smooth", options->smooth, "smooth without shrinking; 10 passes")
+                            ->type_name("[PASSES]")
+                            ->expected(0, 1);
+  command.add_option("--decimate", options->decimate, "fewer faces, the shape kept as well as can be")
+      ->type_name("N")
+      ->check(whole_number(1, most_faces));
+  CLI::Option* faces = command.add_option("--faces", options->faces, "even edges, about N faces")
+                           ->type_name("N")
+                           ->check(whole_number(1, most_faces));
+  command.add_option("--edge", options->edge, "even edges of about length L, in the mesh's unit")
+      ->type_name("L")
+      ->excludes(faces);
+  command.add_flag("--json", options->json, "print a JSON object per mesh");
+  add_session(command, *options);
+  command.callback([options, smooth, &code] {
+    sort_out_smooth(smooth, *options);
+    if (options->meshes.empty()) throw CLI::RequiredError("mesh");
+    code = prepare(*options);
   });
 }
 

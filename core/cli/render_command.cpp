@@ -4,13 +4,23 @@
 #include <charconv>
 
 #include "base/errors.h"
+#include "base/file_name.h"
 #include "base/run_context.h"
 #include "commands.h"
+#include "options.h"
+#include "output.h"
 #include "picture/stages.h"
 #include "stored_results.h"
 
 namespace toposcope::cli {
 namespace {
+
+struct RenderOptions : ResultOptions {
+  fs::path out;  ///< empty: beside the result
+  std::vector<std::string> stages = {"found"};
+  std::string size = "1200x900", view = "auto", up = "auto", background = "white";
+  unsigned threads = 0;
+};
 
 constexpr int greatest_side = 8192;
 
@@ -41,15 +51,15 @@ std::vector<Wanted> pictures(const Scene& scene, const std::vector<std::string>&
   std::vector<Wanted> wanted;
   const auto add = [&](Stage stage) {
     if (stage == Stage::marks && scene.marks.empty()) return;
-    if (stage == Stage::worksets && scene.all_sets.empty()) return;
-    if (stage != Stage::candidates) {
+    if (stage == Stage::sets && scene.all_sets.empty()) return;
+    if (stage != Stage::constructed) {
       wanted.push_back({stage, "", std::string(to_string(stage))});
       return;
     }
     for (const std::string& feature : scene.features)
       for (const ShownCandidate& each : scene.candidates)
         if (each.feature == feature) {
-          wanted.push_back({stage, feature, "candidates-" + feature});
+          wanted.push_back({stage, feature, "constructed-" + file_name(feature)});
           break;
         }
   };
@@ -60,8 +70,6 @@ std::vector<Wanted> pictures(const Scene& scene, const std::vector<std::string>&
       add(stage_from(text));
   return wanted;
 }
-
-}  // namespace
 
 int render(const RenderOptions& options) {
   PictureStyle style;
@@ -79,9 +87,10 @@ int render(const RenderOptions& options) {
     const Scene scene = stored_scene(folder, options.mesh);
     const std::vector<Wanted> wanted = pictures(scene, options.stages);
     if (wanted.empty())
-      throw UsageError(folder.string() + ": has nothing to show of this stage; " +
-                       "working sets and candidates are in scene.json of toposcope run --out, marks in a truth file "
-                       "beside the mesh");
+      throw UsageError(
+          folder.string() + ": has nothing to show of this stage; " +
+          "working sets and constructed features are in scene.json of toposcope run --out, marks in a truth file "
+          "beside the mesh");
     const Stand stand = options.up == "auto" ? stand_of(scene) : stand_from(options.up);
     const View view = options.view == "auto" ? best_view(scene, stand) : view_from(options.view);
     for (const Wanted& each : wanted) {
@@ -89,9 +98,35 @@ int render(const RenderOptions& options) {
       if (!options.out.empty() && wanted.size() > 1)
         file.replace_filename(file.stem().string() + "-" + each.name + ".png");
       write_file(file, to_png(picture_of(scene, each.stage, each.feature, view, stand, style, context)));
-      if (!options.quiet) fmt::print("{}\n", file.string());
+      if (!options.quiet) say("{}\n", file.string());
     }
   });
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, int& code) {
+  CLI::App& command = *app.add_subcommand("render", "pictures of results as PNG files, without a display");
+  const auto options = std::make_shared<RenderOptions>();
+  command.add_option("--stage", options->stages, "mesh, sets, constructed, found, marks; several by commas; all")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->capture_default_str();
+  command.add_option("-o,--out", options->out, "the picture; of several pictures the beginning of their names")
+      ->type_name("FILE.png");
+  command.add_option("--size", options->size, "pixels")->type_name("WxH")->capture_default_str();
+  command
+      .add_option("--view", options->view,
+                  "auto, iso, front, back, left, right, top, bottom, or azimuth,elevation in degrees")
+      ->capture_default_str();
+  command.add_option("--up", options->up, "which way is up: auto (the model tells), x, y, z, -x, -y, -z")
+      ->capture_default_str();
+  command.add_option("--background", options->background, "white, dark or transparent")
+      ->check(CLI::IsMember({"white", "dark", "transparent"}))
+      ->capture_default_str();
+  add_threads(command, options->threads);
+  add_results(command, *options);
+  command.callback([options, &code] { code = render(*options); });
 }
 
 }  // namespace toposcope::cli

@@ -43,14 +43,16 @@ fs::path find_resource(const std::string& kind, const std::string& name) {
   fs::path given(name);
   const std::string one = kind.substr(0, kind.size() - 1);
   if (given.extension() == ".yaml" || given.extension() == ".yml") {
-    if (!fs::is_regular_file(given)) throw UsageError(name + ": no such " + one + " file");
+    std::error_code error;
+    if (!fs::is_regular_file(given, error))
+      throw UsageError(name + ": no such " + one + " file" + (error ? " (" + error.message() + ")" : ""));
     return given;
   }
   std::vector<std::string> known;
   for (const fs::path& folder : folders(kind)) {
     fs::path file = folder / (name + ".yaml");
-    if (fs::is_regular_file(file)) return file;
     std::error_code error;
+    if (fs::is_regular_file(file, error)) return file;
     for (const auto& entry : fs::recursive_directory_iterator(folder, error))
       if (entry.path().extension() == ".yaml")
         known.push_back(fs::relative(entry.path(), folder).replace_extension().string());
@@ -77,12 +79,13 @@ std::string page_missing() {
 
 fs::path find_resource_folder(const std::string& kind, std::string_view name) {
   for (const fs::path& folder : folders(kind))
-    if (fs::is_directory(folder / name)) return folder / name;
+    if (std::error_code error; fs::is_directory(folder / name, error)) return folder / name;
   return {};
 }
 
 std::vector<fs::path> find_models(const std::string& folder_or_list) {
-  if (folder_or_list.find('/') != std::string::npos && fs::is_directory(folder_or_list)) {
+  std::error_code error;
+  if (folder_or_list.find('/') != std::string::npos && fs::is_directory(folder_or_list, error)) {
     std::vector<fs::path> files = yaml_files(folder_or_list);
     if (files.empty()) throw UsageError(folder_or_list + ": no .yaml file in this folder; give a folder of models");
     return files;

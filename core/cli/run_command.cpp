@@ -4,11 +4,14 @@
 #include <chrono>
 
 #include "base/errors.h"
+#include "base/file_name.h"
 #include "commands.h"
 #include "formats/problem_io.h"
 #include "io/mesh_io.h"
 #include "lock/run_lock.h"
 #include "model/read_model.h"
+#include "options.h"
+#include "output.h"
 #include "output_folder.h"
 #include "report_files.h"
 #include "resources.h"
@@ -19,13 +22,22 @@
 namespace toposcope::cli {
 namespace {
 
+struct RunOptions : CommonOptions {
+  std::vector<fs::path> meshes;
+  std::string model;
+  fs::path out;
+  fs::path save_problem;  ///< empty: not written
+  bool report = true;
+  fs::path lock, locked;  ///< write a lock file; refuse a run that differs from one
+};
+
 /// One file; of a model with classes one for each, FILE-<class>.
 void save_problems(const fs::path& path, const Analysis& analysis, Context& context) {
   if (path.empty()) return;
   for (const ClassOutcome& each : analysis.classes) {
     fs::path file = path;
     if (analysis.classes.size() > 1)
-      file.replace_filename(path.stem().string() + "-" + each.name + path.extension().string());
+      file.replace_filename(path.stem().string() + "-" + file_name(each.name) + path.extension().string());
     for (const std::string& note : write_problem(file, each.problem))
       context.log(LogLevel::info, file.string() + ": " + note);
   }
@@ -54,8 +66,6 @@ void lock_or_compare(const RunOptions& options, PipelineSession& session, const 
     require_same(read_lock(options.locked), now, options.locked);
 }
 
-}  // namespace
-
 int run(const RunOptions& options) {
   if (!options.out.empty()) {
     refuse_same_stem(options.meshes, "--out");
@@ -83,8 +93,8 @@ int run(const RunOptions& options) {
     Result result = explain(analysis, model, path.string(), stations, session.context());
     result.repair = input.repair;
     result.timings.insert(result.timings.begin(), {"read", read_ms});
+    const fs::path folder = options.out / file_name(path.stem().string());
     if (!options.out.empty()) {
-      const fs::path folder = options.out / path.stem();
       make_folder(folder, "--out");
       write_labels(folder / "labels.ply", input.mesh, result);
       write_file(folder / "result.json", to_json(result));
@@ -96,17 +106,37 @@ int run(const RunOptions& options) {
     }
     session.status("");
     if (options.json)
-      fmt::print("{}", to_json_line(result));
+      say("{}", to_json_line(result));
     else if (!options.quiet)
-      fmt::print("{}\n", to_text(result));
+      say("{}\n", to_text(result));
     if (!options.out.empty() && !options.quiet && !options.json)
-      fmt::print("  coloured mesh: {}\n  result:        {}\n{}\n", (options.out / path.stem() / "labels.ply").string(),
-                 (options.out / path.stem() / "result.json").string(),
-                 !page || !page->there()
-                     ? ""
-                     : "  to look at:    " + (options.out / path.stem() / "report.html").string() + "\n");
-    std::fflush(stdout);
+      say("  coloured mesh: {}\n  result:        {}\n{}\n", (folder / "labels.ply").string(),
+          (folder / "result.json").string(),
+          !page || !page->there() ? "" : "  to look at:    " + (folder / "report.html").string() + "\n");
+    flush_output();
   });
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& code) {
+  CLI::App& command = *app.add_subcommand("run", "label the features of a model on meshes");
+  const auto options = std::make_shared<RunOptions>();
+  add_meshes(command, options->meshes)->required();
+  add_model(command, options->model)->required();
+  command.add_option("--out", options->out, "write result.json, labels.ply, scene.json and report.html to DIR/<mesh>/")
+      ->type_name("DIR");
+  command.add_flag("!--no-report", options->report, "do not write report.html");
+  command.add_option("--save-problem", options->save_problem, "write the labelling problem: .json, .cfn, .wcsp, .uai")
+      ->type_name("FILE");
+  CLI::Option* lock =
+      command.add_option("--lock", options->lock, "write what decides this run to FILE")->type_name("FILE");
+  command.add_option("--locked", options->locked, "refuse to run when anything differs from FILE, and say what")
+      ->type_name("FILE")
+      ->excludes(lock);
+  command.add_flag("--json", options->json, "print the results as JSON lines");
+  add_common(command, *options);
+  command.callback([options, &code] { code = run(*options); });
 }
 
 }  // namespace toposcope::cli

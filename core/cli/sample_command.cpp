@@ -3,10 +3,13 @@
 
 #include <algorithm>
 
+#include "base/assignment.h"
 #include "base/errors.h"
 #include "base/run_context.h"
 #include "commands.h"
 #include "io/mesh_io.h"
+#include "options.h"
+#include "output.h"
 #include "plugin/option_check.h"
 #include "sample/sample.h"
 #include "sample/scan.h"
@@ -15,14 +18,28 @@
 namespace toposcope::cli {
 namespace {
 
+struct SampleOptions : CommonOptions {
+  std::string kind;
+  std::uint32_t faces = 20000;
+  double noise = 0;
+  fs::path out;
+  bool list = false;
+  bool scan = false;
+  std::uint32_t viewpoints = 60, seen_from = 0;
+  double scan_noise = 0.0005;
+  int smoothing = 3;
+  std::string preset;
+  bool random = false;
+};
+
 void list_kinds() {
   for (const SampleKind& kind : sample_kinds()) {
-    fmt::print("{}: {}\n", kind.name, kind.summary);
+    say("{}: {}\n", kind.name, kind.summary);
     for (const OptionRow& row : kind.parameters)
-      fmt::print("  {:<22} {:<8} {} [{}; default {}; --random: {}]\n", row.name, row.unit, row.meaning,
-                 describe_constraint(row), row.default_value, describe_range(kind, row.name));
-    for (const SamplePreset& preset : kind.presets) fmt::print("  --preset {:<13} {}\n", preset.name, preset.summary);
-    fmt::print("\n");
+      say("  {:<22} {:<8} {} [{}; default {}; --random: {}]\n", row.name, row.unit, row.meaning,
+          describe_constraint(row), row.default_value, describe_range(kind, row.name));
+    for (const SamplePreset& preset : kind.presets) say("  --preset {:<13} {}\n", preset.name, preset.summary);
+    say("\n");
   }
 }
 
@@ -35,8 +52,12 @@ SampleRequest request_of(const SampleOptions& options) {
   const std::vector<SampleKind> kinds = sample_kinds();
   const auto kind =
       std::find_if(kinds.begin(), kinds.end(), [&](const SampleKind& k) { return k.name == options.kind; });
-  for (const auto& [name, value] : options.parameters)
+  for (const std::string& text : options.overrides) {
+    const auto parameter = split_assignment(text);
+    if (!parameter) throw UsageError("--set " + text + ": expected name=value; see toposcope sample --list");
+    const auto& [name, value] = *parameter;
     request.parameters[name] = kind == kinds.end() ? 0 : sample_parameter(*kind, name, value);
+  }
   request.preset = options.preset;
   request.random = options.random;
   return request;
@@ -54,7 +75,9 @@ Sample scanned(const SampleOptions& options) {
                               .seed = options.seed};
   Session session(options);
   const Sample target = make_scan_target(request_of(options), session.context());
-  return scan(target, settings, session.host(), session.context());
+  Sample made = scan(target, settings, session.host(), session.context());
+  stop_if_cancelled(session.context(), options.out.string() + " was not written");
+  return made;
 }
 
 Sample exact(const SampleOptions& options) {
@@ -64,8 +87,6 @@ Sample exact(const SampleOptions& options) {
   RunContext context(settings);
   return make_sample(request_of(options), context);
 }
-
-}  // namespace
 
 int sample(const SampleOptions& options) {
   if (options.list) {
@@ -78,9 +99,46 @@ int sample(const SampleOptions& options) {
   const fs::path truth = fs::path(options.out).replace_extension(".truth.json");
   write_mesh(options.out, made.mesh.positions, made.mesh.triangles);
   write_file(truth, truth_json(made, options.out.filename().string()));
-  fmt::print("{}: {} with {} faces\n{}: its truth\n", options.out.string(), made.truth.class_name,
-             made.mesh.triangles.size(), truth.string());
+  say("{}: {} with {} faces\n{}: its truth\n", options.out.string(), made.truth.class_name, made.mesh.triangles.size(),
+      truth.string());
   return 0;
+}
+
+}  // namespace
+
+void add_sample(CLI::App& app, int& code) {
+  CLI::App& command = *app.add_subcommand("sample", "make a parametric object and its truth");
+  const auto options = std::make_shared<SampleOptions>();
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  command.add_option("kind", options->kind, "cup, tee, ...; see --list");
+  command.add_flag("--list", options->list, "list the kinds and their parameters");
+  command.add_option("-o,--out", options->out, "mesh to write; its truth goes beside it")->type_name("MESH");
+  command.add_option("--faces", options->faces, "number of faces")->check(whole_number(0, most))->capture_default_str();
+  command.add_option("--noise", options->noise, "sd of the noise along the normal, part of the diagonal")
+      ->capture_default_str();
+  command.add_option("--set", options->overrides, "one parameter: name=value")
+      ->type_name("P=V")
+      ->allow_extra_args(false);
+  command.add_option("--preset", options->preset, "named parameters to start from; see --list");
+  command.add_flag("--random", options->random, "draw the parameters that --set does not give");
+  add_seed(command, options->seed, "noise, pose and --random");
+  add_threads(command, options->threads);
+  command.add_flag("--scan", options->scan, "turn the object, scan it and make the mesh of what was seen");
+  const std::vector<CLI::Option*> scan_options = {
+      command.add_option("--views", options->viewpoints, "viewpoints of the scan")
+          ->check(whole_number(0, most))
+          ->capture_default_str(),
+      command.add_option("--view", options->seen_from, "keep only what so many viewpoints on one side see")
+          ->check(whole_number(0, most))
+          ->capture_default_str(),
+      command.add_option("--scan-noise", options->scan_noise, "sd along the ray, part of the diagonal")
+          ->capture_default_str(),
+      command.add_option("--scan-smooth", options->smoothing, "passes of Taubin's filter after the scan")
+          ->check(whole_number(0, 10000))
+          ->capture_default_str()};
+  for (CLI::Option* option : scan_options) option->needs("--scan");
+  add_plugin_dirs(command, options->plugin_dirs);
+  command.callback([options, &code] { code = sample(*options); });
 }
 
 }  // namespace toposcope::cli

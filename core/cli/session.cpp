@@ -6,21 +6,19 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <csignal>
+#include <algorithm>
 #include <cstdio>
+#include <new>
 
 #include "base/errors.h"
+#include "base/printable.h"
+#include "failure.h"
+#include "output.h"
 #include "resources.h"
 #include "result/repair_words.h"
 
 namespace toposcope::cli {
 namespace {
-
-RunContext* interruptible = nullptr;  // the one thing a signal handler can reach
-
-void on_interrupt(int) {
-  if (interruptible) interruptible->cancel();
-}
 
 PipelineManifest open_pipeline(const CommonOptions& options, const PluginCatalog& catalog) {
   PipelineManifest pipeline = read_pipeline(find_resource("pipelines", options.pipeline), catalog);
@@ -52,8 +50,7 @@ std::string program_name() {
 PluginCatalog open_catalog(const std::vector<fs::path>& plugin_dirs, bool warn) {
   PluginCatalog catalog(plugin_search_path(plugin_dirs));
   if (warn)
-    for (const PluginProblem& problem : catalog.problems())
-      fmt::print(stderr, "toposcope: warning: {}\n", problem.message);
+    for (const PluginProblem& problem : catalog.problems()) complain("warning: " + problem.message);
   return catalog;
 }
 
@@ -67,20 +64,16 @@ Session::Session(const CommonOptions& options)
   RunSettings settings;
   settings.threads = options.threads;
   settings.seed = options.seed;
-  settings.log = [logger](LogLevel level, std::string_view message) { logger->log(level_of(level), message); };
+  settings.log = [logger](LogLevel level, std::string_view message) {
+    logger->log(level_of(level), shortened(printable(message)));
+  };
   if (terminal_)
     settings.progress = [this](double fraction) {
-      fmt::print(stderr, "\r\033[K{} {:3.0f} %", status_, 100 * fraction);
+      std::fprintf(stderr, "\r\033[K%s %3.0f %%", status_.c_str(), 100 * fraction);
       std::fflush(stderr);
     };
   context_ = std::make_unique<RunContext>(settings);
-  interruptible = context_.get();
-  std::signal(SIGINT, on_interrupt);
-}
-
-Session::~Session() {
-  std::signal(SIGINT, SIG_DFL);
-  interruptible = nullptr;
+  interruption_.emplace(*context_);
 }
 
 RepairedMesh Session::read(const fs::path& mesh) {
@@ -94,31 +87,52 @@ RepairedMesh Session::read(const fs::path& mesh) {
 }
 
 void Session::status(const std::string& text) {
-  status_ = text;
+  status_ = printable(text);
   if (!terminal_) return;
-  fmt::print(stderr, "\r\033[K{}", text);
+  std::fprintf(stderr, "\r\033[K%s", status_.c_str());
   std::fflush(stderr);
 }
 
 PipelineSession::PipelineSession(const CommonOptions& options)
     : Session(options), pipeline_(open_pipeline(options, host().catalog())) {}
 
+std::string not_done(std::size_t all, const std::string& what, const std::vector<std::string>& names) {
+  constexpr std::size_t most = 12;
+  std::string text =
+      fmt::format("{} of {} {} {} not done: ", names.size(), all, what, names.size() == 1 ? "was" : "were");
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i ? ", " : "") + names[i];
+  return text + (names.size() > most ? ", ..." : "");
+}
+
 int for_each_mesh(const std::vector<fs::path>& meshes, Session& session,
                   const std::function<void(const fs::path&)>& body) {
   int code = 0;
-  for (const fs::path& mesh : meshes) {
-    session.status(mesh.string());
+  std::vector<std::string> failed;
+  const auto fail = [&](const fs::path& mesh, const Failure& failure) {
+    session.status("");
+    complain(failure.message);
+    failed.push_back(mesh.string());
+    if (code == 0) code = failure.exit_code;
+  };
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    session.status(meshes[i].string());
+    bool done = false;
     try {
-      body(mesh);
-    } catch (const Error& error) {
-      if (session.context().cancelled()) throw;
-      session.status("");
-      fmt::print(stderr, "toposcope: {}\n", error.what());
-      if (code == 0) code = error.exit_code;
+      body(meshes[i]);
+      done = true;
+    } catch (const std::bad_alloc&) {
+      fail(meshes[i],
+           {meshes[i].string() + ": out of memory; give fewer faces, such as toposcope prepare --decimate makes",
+            MeshError("").exit_code});
+    } catch (...) {
+      if (!session.context().cancelled()) fail(meshes[i], present_failure());
     }
     session.status("");
-    if (session.context().cancelled()) throw Error("interrupted", interrupted_exit_code);
+    if (!session.context().cancelled() || (done && i + 1 == meshes.size())) continue;
+    for (std::size_t rest = i + (done ? 1 : 0); rest < meshes.size(); ++rest) failed.push_back(meshes[rest].string());
+    throw Error("interrupted; " + not_done(meshes.size(), "meshes", failed), interrupted_exit_code);
   }
+  if (!failed.empty() && meshes.size() > 1) complain(not_done(meshes.size(), "meshes", failed));
   return code;
 }
 

@@ -3,11 +3,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "base/run_context.h"
-#include "commands.h"
+#include "interruption.h"
 #include "io/mesh_io.h"
 #include "model/model.h"
+#include "options.h"
 #include "pipeline/pipeline_manifest.h"
 #include "pipeline/stations.h"
 #include "plugin/plugin_host.h"
@@ -18,7 +20,6 @@ namespace toposcope::cli {
 class Session {
  public:
   explicit Session(const CommonOptions& options);
-  ~Session();
 
   PluginHost& host() { return host_; }
   RunContext& context() { return *context_; }
@@ -34,6 +35,7 @@ class Session {
   bool terminal_;
   std::string status_;
   std::unique_ptr<RunContext> context_;
+  std::optional<Interruption> interruption_;
 };
 
 /// And a pipeline.
@@ -53,9 +55,14 @@ std::string program_name();
 /// The plugins that can be found; a warning on stderr about each that cannot be used.
 PluginCatalog open_catalog(const std::vector<fs::path>& plugin_dirs, bool warn = true);
 
-/// Runs `body` for each mesh: one that fails is reported on stderr and the others are still done.
+/// Runs `body` for each mesh: one that fails is reported on stderr and the others are still done; of several, the end
+/// says which were not.
 /// \return the exit code: that of the first failure, 0 if there was none
+/// \throw Error  interrupted
 int for_each_mesh(const std::vector<fs::path>& meshes, Session& session,
                   const std::function<void(const fs::path&)>& body);
+
+/// "2 of 5 meshes were not done: a.ply, b.ply"; a dozen names at most.
+std::string not_done(std::size_t all, const std::string& what, const std::vector<std::string>& names);
 
 }  // namespace toposcope::cli

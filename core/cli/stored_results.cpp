@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "stored_results.h"
 
-#include <fmt/format.h>
-
-#include <cstdio>
-
 #include "base/errors.h"
 #include "base/text_file.h"
+#include "failure.h"
+#include "output.h"
+#include "session.h"
 
 namespace toposcope::cli {
 
@@ -36,12 +35,16 @@ int for_each_result(const std::vector<fs::path>& results, const fs::path& mesh,
     throw UsageError("--mesh names the mesh of one result, and " + std::to_string(results.size()) +
                      " are given; take them one by one");
   int code = 0;
+  std::vector<std::string> failed;
   for (const fs::path& given : results) try {
       body(result_folder(given));
-    } catch (const Error& error) {
-      fmt::print(stderr, "toposcope: {}\n", error.what());
-      if (code == 0) code = error.exit_code;
+    } catch (...) {
+      const Failure failure = present_failure();
+      complain(failure.message);
+      failed.push_back(given.string());
+      if (code == 0) code = failure.exit_code;
     }
+  if (!failed.empty() && results.size() > 1) complain(not_done(results.size(), "results", failed));
   return code;
 }
 

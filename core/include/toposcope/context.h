@@ -16,6 +16,7 @@ class Context {
  public:
   virtual ~Context() = default;
 
+  /// Takes one line, without its end.
   virtual void log(LogLevel level, std::string_view message) = 0;
   /// \param fraction of the present station, 0 to 1
   virtual void progress(double fraction) = 0;

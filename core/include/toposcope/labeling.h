@@ -16,7 +16,7 @@ inline constexpr Index no_candidate = std::numeric_limits<Index>::max();
 
 /// A model feature and the values that it may take. Of an optional variable value 0 is *missing*.
 struct LabelingVariable {
-  std::string name;
+  std::string name;                    ///< of the feature
   double detectability = 1;            ///< 0 to 1: that the feature is found where it is there; in `costs` already
   std::vector<Index> candidates = {};  ///< per value other than missing: a row of the problem's conflict table; empty:
                                        ///< the variable's values exclude nothing
@@ -24,7 +24,9 @@ struct LabelingVariable {
   bool optional = true;                ///< value 0 is *missing*; false: every value is a candidate
   std::vector<std::string> value_names = {};  ///< per value; empty: values are known by number
 
+  /// How many values there are, *missing* too.
   Index domain() const { return static_cast<Index>(costs.size()); }
+  /// Whether the value is *missing*.
   bool missing(Index value) const { return optional && value == 0; }
   /// Row of the conflict table; `no_candidate` for missing and where there are no candidates.
   Index candidate(Index value) const {
@@ -35,7 +37,7 @@ struct LabelingVariable {
 /// A relationship over one or more variables, as dense tables over their domains (row-major, last variable
 /// fastest). Where any variable of the scope is missing the relationship says nothing: cost 0, satisfied.
 struct LabelingConstraint {
-  std::string name;
+  std::string name;                    ///< of the relationship
   std::vector<Index> scope;            ///< variables, each once
   std::vector<double> costs = {};      ///< minus log likelihood ratio of "holds" against unrelated, nats; infinite:
                                        ///< forbidden
@@ -46,19 +48,21 @@ struct LabelingConstraint {
 /// Variables, domains, constraints and exclusions; knows nothing of meshes (dissertation 3.4.2, "consistent
 /// labeling problem"). `toposcope/labeling/tools.h` has what labelers ask of it.
 struct LabelingProblem {
-  std::string name;
-  std::vector<LabelingVariable> variables;
-  std::vector<LabelingConstraint> constraints;
-  double constant = 0;  ///< part of every labelling's cost, nats
+  std::string name;                             ///< of the model
+  std::vector<LabelingVariable> variables;      ///< the features
+  std::vector<LabelingConstraint> constraints;  ///< the relationships
+  double constant = 0;                          ///< part of every labelling's cost, nats
 
-  Index candidate_count = 0;
+  Index candidate_count = 0;                 ///< rows of the conflict table
   std::vector<std::uint64_t> conflict_bits;  ///< candidate_count rows of conflict_words() words; symmetric; a
                                              ///< candidate conflicts with itself
+  /// Words in a row of `conflict_bits`.
   std::size_t conflict_words() const { return (candidate_count + 63) / 64; }
   /// True where two candidates may not both be used: they share a vertex.
   bool conflict(Index a, Index b) const { return (conflict_bits[a * conflict_words() + b / 64] >> (b % 64)) & 1U; }
 };
 
+/// What a labeler is asked for.
 struct LabelingRequest {
   std::size_t k_best = 10;                                  ///< labellings at most; 0 asks for one
   double time_limit_s = 10;                                 ///< seconds from the call on
@@ -66,6 +70,7 @@ struct LabelingRequest {
                                                             ///< nats
 };
 
+/// An assignment of one value to every variable.
 struct Labeling {
   std::vector<Index> values;  ///< one per variable
   double cost = 0;            ///< nats, as `cost_of` sums it
@@ -73,13 +78,15 @@ struct Labeling {
 
 /// A value that no consistent labelling can have, removed by propagation, and why.
 struct RemovedValue {
-  Index variable = 0, value = 0;
-  std::string reason;
+  Index variable = 0;  ///< of the problem, from 0
+  Index value = 0;     ///< of the variable, from 0
+  std::string reason;  ///< a sentence that names what removed it
 };
 
 /// Something that a labeler has to tell beyond its labellings: its convergence, entropy, count of solutions.
 struct LabelingFact {
-  std::string name, value;
+  std::string name;   ///< as it is printed
+  std::string value;  ///< likewise
 };
 
 /// What is promised of a sum over labellings.
@@ -90,6 +97,7 @@ enum class Exactness : std::uint32_t {
   approximate  ///< nothing is proven
 };
 
+/// What a labeler found, and what it promises of it.
 struct LabelingOutcome {
   std::vector<Labeling> labelings;  ///< best first by the labeler's own rank, at most k_best; consistent with the
                                     ///< exclusions. Empty only where a variable that may not be missing stands in the
@@ -108,7 +116,7 @@ struct LabelingOutcome {
   std::uint64_t nodes = 0;                          ///< of a search tree, or sweeps, or moves
   std::string guarantee;                            ///< one line: what the labeler promises of this outcome
   std::vector<RemovedValue> removed = {};           ///< in the order in which the values were removed
-  std::vector<LabelingFact> facts = {};
+  std::vector<LabelingFact> facts = {};             ///< what else there is to tell
 };
 
 /// Solves labelling problems. Thread-safe: `solve` may be called from many threads at once.

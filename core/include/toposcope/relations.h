@@ -13,24 +13,25 @@ namespace toposcope {
 
 /// A constructed feature as a relation sees it.
 struct RelationOperand {
-  const FittedShape* shape = nullptr;
+  const FittedShape* shape = nullptr;    ///< what was fitted
   std::span<const Vec3> points;          ///< of its working sets
   Box box;                               ///< bb(w)
   std::span<const Index> vertices = {};  ///< of `RelationInput::mesh`, one per point; empty: not known
 };
 
+/// What a relation is tested on.
 struct RelationInput {
   std::span<const RelationOperand> features;  ///< in the order of the model, as many as the relation takes
-  Box object_box;
-  double mean_edge = 0;            ///< mesh unit
-  const MeshView* mesh = nullptr;  ///< what the features are features of; null: not known
+  Box object_box;                             ///< bb(O)
+  double mean_edge = 0;                       ///< mesh unit
+  const MeshView* mesh = nullptr;             ///< what the features are features of; null: not known
 };
 
 /// How far a relation is from holding, and what the kernel needs to weigh it (docs/theory/probabilities.md). The unit u
 /// of its numbers is rad where the descriptor's unit is "deg", mesh unit where it is "length".
 struct RelationResult {
-  bool applicable = true;  ///< false: these shapes cannot stand in this relation; `why` says so
-  std::string why;
+  bool applicable = true;      ///< false: these shapes cannot stand in this relation; `why` says so
+  std::string why;             ///< one line, where it is not applicable
   double residual = 0;         ///< u, >= 0
   double tolerance = 0;        ///< u, > 0; crisp form: satisfied when residual <= tolerance
   double sd = 0;               ///< u; standard deviation of the residual, from the fits' own uncertainty

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/run_context.h"
 
+#include <signal.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_scheduler_observer.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -73,6 +75,20 @@ void run_all(tbb::task_arena& arena, unsigned, std::size_t chunks, const Run& ru
 }
 #endif
 
+/// A signal goes to a thread of the caller, who knows when it may end the program, and never to a worker.
+class SignalsToTheCaller final : public tbb::task_scheduler_observer {
+ public:
+  explicit SignalsToTheCaller(tbb::task_arena& arena) : tbb::task_scheduler_observer(arena) { observe(true); }
+  ~SignalsToTheCaller() override { observe(false); }
+  void on_scheduler_entry(bool worker) override {
+    if (!worker) return;
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int each : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, each);
+    pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+  }
+};
+
 }  // namespace
 
 struct RunContext::State {
@@ -90,6 +106,7 @@ struct RunContext::State {
   RunSettings settings;
   unsigned threads;
   tbb::task_arena arena;
+  SignalsToTheCaller signals{arena};
   std::optional<tbb::global_control> more_threads;
   std::optional<Clock::time_point> deadline;
   std::atomic<bool> cancelled = false;

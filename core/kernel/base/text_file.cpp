@@ -1,22 +1,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/text_file.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 
 #include "base/errors.h"
+#include "base/printable.h"
 
 namespace toposcope {
+namespace {
+
+/// What reads YAML and JSON takes UTF-8 for granted.
+void require_utf8(const std::string& text, const std::string& owner) {
+  const std::size_t at = utf8_length(text);
+  if (at == text.size()) return;
+  char byte[8];
+  std::snprintf(byte, sizeof byte, "0x%02x", static_cast<unsigned>(static_cast<unsigned char>(text[at])));
+  throw UsageError(owner + ":" +
+                   std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) +
+                   ": the byte " + byte + " is no UTF-8; save the file as UTF-8");
+}
+
+}  // namespace
 
 std::string read_text_file(const std::filesystem::path& path, const std::string& what) {
-  std::ifstream stream(path, std::ios::binary);
-  // A folder opens like a file and reads as empty.
+  // A folder opens like a file and reads as empty; a pipe or a device may have no end.
   std::error_code ignored;
+  const bool regular = std::filesystem::is_regular_file(path, ignored);
+  std::ifstream stream;
+  if (regular) stream.open(path, std::ios::binary);
   std::ostringstream text;
-  if (stream && !std::filesystem::is_directory(path, ignored)) text << stream.rdbuf();
-  if (!stream || std::filesystem::is_directory(path, ignored))
+  if (stream.is_open()) text << stream.rdbuf();
+  if (!stream.is_open() || stream.bad())
     throw UsageError(what + " '" + path.string() + "' cannot be read; check that it is a file and may be read");
-  return std::move(text).str();
+  std::string whole = std::move(text).str();
+  require_utf8(whole, path.string());
+  return whole;
 }
 
 }  // namespace toposcope

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <signal.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -37,6 +39,23 @@ std::FILE* open_beside(const fs::path& target, fs::path& temporary) {
   return nullptr;
 }
 
+/// While it lives, this thread ends for no signal, so that none leaves a file half-written.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int each : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, each);
+    pthread_sigmask(SIG_BLOCK, &ending, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
 }  // namespace
 
 void write_file(const fs::path& path, std::string_view content) {
@@ -53,6 +72,7 @@ void write_file(const fs::path& path, std::string_view content) {
   if (fs::is_symlink(fs::symlink_status(path, error)))
     if (const fs::path real = fs::weakly_canonical(path, error); !error) target = real;
 
+  const SignalsWait wait;
   fs::path temporary;
   std::FILE* file = open_beside(target, temporary);
   if (!file) fail(path, std::strerror(errno));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/assignment.h"
 #include "base/nearest_name.h"
 #include "base/schemas.h"
 #include "base/text_file.h"
@@ -103,16 +104,16 @@ struct Setting {
 Setting parse_setting(std::string_view text, const std::string& owner) {
   const std::string form =
       "; write station.option=value, such as relations.parallel.tolerance=5 or shapes.circle.method=powell";
-  const std::size_t equals = text.find('=');
-  if (equals == text.npos) throw UsageError(owner + ": has no '='" + form);
-  const std::string_view path = text.substr(0, equals);
+  const auto assignment = split_assignment(text);
+  if (!assignment) throw UsageError(owner + ": is no assignment" + form);
+  const std::string_view path = assignment->first;
   const std::size_t first = path.find('.'), last = path.rfind('.');
   if (first == path.npos || first == 0 || last + 1 == path.size())
     throw UsageError(owner + ": '" + std::string(path) + "' does not name station and option" + form);
   Setting setting{.station = std::string(path.substr(0, first)),
                   .id = first == last ? "" : std::string(path.substr(first + 1, last - first - 1)),
                   .option = std::string(path.substr(last + 1)),
-                  .value = std::string(text.substr(equals + 1))};
+                  .value = assignment->second};
   const std::vector<std::string> stations = {"filters", "worksets",  "shapes",     "relations",
                                              "labeler", "marginals", "probability"};
   if (std::find(stations.begin(), stations.end(), setting.station) == stations.end())

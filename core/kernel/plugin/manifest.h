@@ -29,8 +29,8 @@ struct OptionRow {
   std::string name;
   OptionType type = OptionType::real;
   std::string unit, default_value, minimum, maximum, meaning;
-  std::string choices = {};    ///< of a text, separated by '|'
-  std::string not_above = {};  ///< of a number: the name of the row that it may not exceed
+  std::string choices = {};  ///< of a text, separated by '|'
+  std::string not_above = {};
 };
 
 struct ProvidedRow {

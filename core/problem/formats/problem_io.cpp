@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "base/errors.h"
-#include "reading/problem_text.h"
 #include "formats/problem_formats.h"
 #include "io/extension.h"
 #include "io/mesh_io.h"
+#include "reading/problem_text.h"
 #include "toposcope/labeling/problem_writer.h"
 #include "toposcope/labeling/tools.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "reading/problem_builder.h"
 #include "formats/problem_formats.h"
+#include "reading/problem_builder.h"
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope {

@@ -150,7 +150,7 @@ TEST_F(Program, BadMeshesAreRefusedAndTheOthersStillDone) {
 
 TEST_F(Program, BadUsageIsExplained) {
   const std::pair<std::string, const char*> bad[] = {
-      {"frobnicate", "subcommand"},
+      {"frobnicate", "command 'frobnicate'"},
       {"run " + mesh("cup"), "--model"},
       {"run " + mesh("cup") + " --model cpu", "cup"},
       {"run " + mesh("cup") + " --model cup --pipeline defautl", "default"},

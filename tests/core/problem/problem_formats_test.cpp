@@ -8,8 +8,8 @@
 
 #include <cmath>
 
-#include "core/problem/refusal.h"
 #include "support/labeling_problems.h"
+#include "support/refusal.h"
 #include "toposcope/labeling/tools.h"
 
 namespace {

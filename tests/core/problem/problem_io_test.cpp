@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/problem/refusal.h"
 #include "formats/problem_formats.h"
 #include "model/yaml_schema.h"
 #include "support/labeling_problems.h"
 #include "support/plugins.h"
+#include "support/refusal.h"
 #include "toposcope/labeling/problem_writer.h"
 #include "toposcope/labeling/tools.h"
 #include "toposcope/system/programs.h"

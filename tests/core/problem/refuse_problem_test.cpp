@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/problem/refusal.h"
 #include "formats/problem_formats.h"
+#include "support/refusal.h"
 #include "toposcope/labeling/problem_writer.h"
 
 namespace {

@@ -13,7 +13,7 @@
 
 namespace toposcope {
 
-/// Splitmix64 (Steele, Lea and Flood 2014) as a function of a counter or seed: neighbouring numbers become unrelated.
+/// Splitmix64 [Steele2014] as a function of a counter or seed: neighbouring numbers become unrelated.
 constexpr std::uint64_t splitmix64(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -24,13 +24,17 @@ constexpr std::uint64_t splitmix64(std::uint64_t x) {
 /// Splitmix64 as a stream of 64 random bits a call, a generator of the standard library's kind.
 class SplitMix64 {
  public:
-  using result_type = std::uint64_t;
+  using result_type = std::uint64_t;  ///< of the standard library's generators
+  /// By which the state grows.
   static constexpr std::uint64_t step = 0x9e3779b97f4a7c15ULL;
 
   /// Streams whose states differ by few times `step` overlap.
   constexpr explicit SplitMix64(std::uint64_t state) : state_(state) {}
+  /// The least number.
   static constexpr result_type min() { return 0; }
+  /// The greatest number.
   static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
+  /// The next number.
   constexpr result_type operator()() {
     const std::uint64_t before = state_;
     state_ += step;
@@ -44,7 +48,9 @@ class SplitMix64 {
 /// Knuth's linear congruential generator (MMIX), whose upper 31 bits are given; enough for choosing samples.
 class LinearCongruential {
  public:
+  /// The same state gives the same numbers.
   constexpr explicit LinearCongruential(std::uint64_t state = 0x9e3779b97f4a7c15ULL) : state_(state) {}
+  /// The next number, 31 bits.
   constexpr std::uint32_t operator()() {
     state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
     return static_cast<std::uint32_t>(state_ >> 33);
@@ -71,7 +77,7 @@ constexpr double uniform_open(std::uint64_t bits) {
   return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
 }
 
-/// Two independent standard normal numbers (Box and Muller 1958) from two uniform ones, `u` in (0, 1] and `v` in [0,
+/// Two independent standard normal numbers [Box1958] from two uniform ones, `u` in (0, 1] and `v` in [0,
 /// 1].
 inline std::array<double, 2> normal_pair(double u, double v) {
   const double radius = std::sqrt(-2 * std::log(u)), angle = 2 * pi * v;

@@ -6,6 +6,7 @@
 
 #include "base/errors.h"
 #include "support/program.h"
+#include "support/refusal.h"
 
 namespace toposcope {
 namespace {
@@ -27,12 +28,7 @@ class DatasetFile : public ::testing::Test {
     return read_dataset(folder_ / "set.yaml");
   }
   std::string refusal(const std::string& meshes) {
-    try {
-      read(meshes);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test::refusal([&] { read(meshes); });
   }
   test::TemporaryFolder folder_;
 };

@@ -6,6 +6,7 @@
 
 #include "base/errors.h"
 #include "support/program.h"
+#include "support/refusal.h"
 
 namespace toposcope {
 namespace {
@@ -19,12 +20,7 @@ class TruthFile : public ::testing::Test {
     return read_truth(folder_ / "cup.truth.json");
   }
   std::string refusal(const std::string& text) {
-    try {
-      read(text);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test::refusal([&] { read(text); });
   }
   test::TemporaryFolder folder_;
 };

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "failure.h"
+
+#include <filesystem>
+#include <new>
+
+#include "base/errors.h"
+
+namespace toposcope::cli {
+
+Failure present_failure() try { throw; } catch (const Error& error) {
+  return {error.what(), error.exit_code};
+} catch (const std::filesystem::filesystem_error& error) {
+  return {
+      error.path1().string() + ": " + error.code().message() + "; check the name, and that its folders may be entered",
+      2};
+} catch (const std::bad_alloc&) {
+  return {"out of memory; give less input at once", 1};
+} catch (const std::exception& error) {
+  return {std::string("internal error: ") + error.what(), 1};
+}
+
+}  // namespace toposcope::cli
