@@ -22,6 +22,7 @@ class CostTables {
   CostTables(const CostTables&) = delete;
   CostTables& operator=(const CostTables&) = delete;
 
+  /// Whose tables they are.
   const LabelingProblem& problem() const { return problem_; }
   /// Only then may a ConditionalCosts be made.
   bool complete() const;
@@ -34,16 +35,20 @@ class CostTables {
 
   /// Values of all variables in one row: value `a` of variable v is position offset(v) + a.
   std::size_t offset(Index v) const { return offsets_[v]; }
+  /// Number of the variable's values.
   std::size_t domain(Index v) const { return offsets_[v + 1] - offsets_[v]; }
+  /// The variable whose value stands at the position.
   Index owner(std::size_t position) const { return owners_[position]; }
   /// Positions whose own cost is finite, by variable: all that local search looks at. Empty until all are read.
   std::span<const std::uint32_t> allowed() const { return allowed_; }
+  /// Those of one variable.
   std::span<const std::uint32_t> allowed(Index v) const {
     return {allowed_.data() + allowed_offsets_[v], allowed_.data() + allowed_offsets_[v + 1]};
   }
 
   /// For the library itself.
   struct State;
+  /// Likewise.
   const State& state() const { return *state_; }
 
  private:
@@ -71,6 +76,7 @@ class ConditionalCosts {
   /// Gives a variable another value. No allocation.
   void assign(Index v, Index value);
 
+  /// The labelling, one value per variable.
   const std::vector<Index>& values() const { return values_; }
   double cost() const { return cost_; }            ///< sum of the finite costs, nats; rounding as in any sum
   std::int64_t broken() const { return broken_; }  ///< forbidden values and entries, and excluded pairs
