@@ -160,7 +160,7 @@ def main():
     faults = list(site.broken())
     print(*warnings, *faults, sep="\n")
     print(f"{folder}/index.html: {len(site.pages)} pages, {len(warnings)} warnings of doxygen, {len(faults)} broken links")
-    sys.exit(1 if faults else 0)
+    sys.exit(1 if warnings or faults else 0)
 
 
 main()
