@@ -87,10 +87,9 @@ int render(const RenderOptions& options) {
     const Scene scene = stored_scene(folder, options.mesh);
     const std::vector<Wanted> wanted = pictures(scene, options.stages);
     if (wanted.empty())
-      throw UsageError(
-          folder.string() + ": has nothing to show of this stage; " +
-          "working sets and candidates are in scene.json of toposcope run --out, marks in a truth file "
-          "beside the mesh");
+      throw UsageError(folder.string() + ": has nothing to show of this stage; " +
+                       "working sets and candidates are in scene.json of toposcope run --out, marks in a truth file "
+                       "beside the mesh");
     const Stand stand = options.up == "auto" ? stand_of(scene) : stand_from(options.up);
     const View view = options.view == "auto" ? best_view(scene, stand) : view_from(options.view);
     for (const Wanted& each : wanted) {
