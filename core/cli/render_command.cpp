@@ -51,15 +51,15 @@ std::vector<Wanted> pictures(const Scene& scene, const std::vector<std::string>&
   std::vector<Wanted> wanted;
   const auto add = [&](Stage stage) {
     if (stage == Stage::marks && scene.marks.empty()) return;
-    if (stage == Stage::sets && scene.all_sets.empty()) return;
-    if (stage != Stage::constructed) {
+    if (stage == Stage::worksets && scene.all_sets.empty()) return;
+    if (stage != Stage::candidates) {
       wanted.push_back({stage, "", std::string(to_string(stage))});
       return;
     }
     for (const std::string& feature : scene.features)
       for (const ShownCandidate& each : scene.candidates)
         if (each.feature == feature) {
-          wanted.push_back({stage, feature, "constructed-" + file_name(feature)});
+          wanted.push_back({stage, feature, "candidates-" + file_name(feature)});
           break;
         }
   };
@@ -87,10 +87,9 @@ int render(const RenderOptions& options) {
     const Scene scene = stored_scene(folder, options.mesh);
     const std::vector<Wanted> wanted = pictures(scene, options.stages);
     if (wanted.empty())
-      throw UsageError(
-          folder.string() + ": has nothing to show of this stage; " +
-          "working sets and constructed features are in scene.json of toposcope run --out, marks in a truth file "
-          "beside the mesh");
+      throw UsageError(folder.string() + ": has nothing to show of this stage; " +
+                       "working sets and candidates are in scene.json of toposcope run --out, marks in a truth file "
+                       "beside the mesh");
     const Stand stand = options.up == "auto" ? stand_of(scene) : stand_from(options.up);
     const View view = options.view == "auto" ? best_view(scene, stand) : view_from(options.view);
     for (const Wanted& each : wanted) {
@@ -108,7 +107,7 @@ int render(const RenderOptions& options) {
 void add_render(CLI::App& app, int& code) {
   CLI::App& command = *app.add_subcommand("render", "pictures of results as PNG files, without a display");
   const auto options = std::make_shared<RenderOptions>();
-  command.add_option("--stage", options->stages, "mesh, sets, constructed, found, marks; several by commas; all")
+  command.add_option("--stage", options->stages, "mesh, worksets, candidates, found, marks; several by commas; all")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();

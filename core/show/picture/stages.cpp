@@ -128,14 +128,14 @@ class Composer {
 }  // namespace
 
 std::string_view to_string(Stage stage) {
-  constexpr std::string_view names[] = {"mesh", "sets", "constructed", "found", "marks"};
+  constexpr std::string_view names[] = {"mesh", "worksets", "candidates", "found", "marks"};
   return names[static_cast<std::size_t>(stage)];
 }
 
 Stage stage_from(const std::string& text) {
   for (const Stage stage : all_stages)
     if (to_string(stage) == text) return stage;
-  throw UsageError("--stage " + text + ": expected mesh, sets, constructed, found, marks or all");
+  throw UsageError("--stage " + text + ": expected mesh, worksets, candidates, found, marks or all");
 }
 
 Composition compose(const Scene& scene, Stage stage, const std::string& feature, Background background, int size) {
@@ -144,10 +144,10 @@ Composition compose(const Scene& scene, Stage stage, const std::string& feature,
     case Stage::mesh:
       composer.mesh();
       break;
-    case Stage::sets:
+    case Stage::worksets:
       composer.worksets();
       break;
-    case Stage::constructed:
+    case Stage::candidates:
       composer.candidates(feature);
       break;
     case Stage::found:

@@ -11,18 +11,18 @@ namespace toposcope {
 
 /// What a picture of a scene shows; named as the page names its stages (web/src/state.ts).
 enum class Stage {
-  mesh,         ///< the normalised mesh, with its edges
-  sets,         ///< working sets by type
-  constructed,  ///< constructed features of one model feature
-  found,        ///< the features found, with their shapes
-  marks         ///< the truth's points
+  mesh,        ///< the normalised mesh, with its edges
+  worksets,    ///< working sets by type
+  candidates,  ///< constructed features of one model feature
+  found,       ///< the features found, with their shapes
+  marks        ///< the truth's points
 };
-inline constexpr Stage all_stages[] = {Stage::mesh, Stage::sets, Stage::constructed, Stage::found, Stage::marks};
+inline constexpr Stage all_stages[] = {Stage::mesh, Stage::worksets, Stage::candidates, Stage::found, Stage::marks};
 std::string_view to_string(Stage stage);
 /// \throw UsageError  it is none
 Stage stage_from(const std::string& text);
 
-/// \param feature  of Stage::constructed
+/// \param feature  of Stage::candidates
 /// \param size     of the picture's smaller side in pixels: lines are so thick that they can be seen
 Composition compose(const Scene& scene, Stage stage, const std::string& feature, Background background, int size);
 

@@ -176,7 +176,7 @@ class Render : public testing::Test {
 
 TEST_F(Render, ShowsEveryStage) {
   ASSERT_EQ(test::toposcope("render --stage all --size 160x120 " + path("out/cup")).exit_code, 0);
-  for (const char* name : {"mesh", "sets", "constructed-rim", "constructed-handleCon", "found", "marks"})
+  for (const char* name : {"mesh", "worksets", "candidates-rim", "candidates-handleCon", "found", "marks"})
     EXPECT_TRUE(there("out/cup/" + std::string(name) + ".png")) << name;
   const Scene scene = read_scene(test::read_text(folder_ / "out/cup/scene.json"), "scene.json");
   const Stand stand = stand_of(scene);
