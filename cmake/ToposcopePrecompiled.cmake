@@ -15,3 +15,12 @@ foreach(name mathematics documents)
   target_precompile_headers(precompiled_${name} PRIVATE ${precompiled_${name}})
 endforeach()
 target_link_libraries(precompiled_documents PRIVATE fmt::fmt nlohmann_json::nlohmann_json)
+
+# toposcope_unity(TARGET): its sources go together where TOPOSCOPE_UNITY says so. What one file takes for itself may then
+# hide what another has: builds without it warn of that.
+function(toposcope_unity target)
+  if(TOPOSCOPE_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  endif()
+endfunction()

@@ -117,7 +117,7 @@ void check(const FileText& file, const PlyHeader& header) {
   for (const PlyElement& e : header.elements) {
     const auto same = [&](const PlyElement& other) { return other.name == e.name; };
     if (std::count_if(header.elements.begin(), header.elements.end(), same) > 1)
-      fail(e, "element " + quoted(e.name) + " is declared more than once");
+      fail(e, "element " + toposcope::quoted(e.name) + " is declared more than once");
     const auto& p = e.properties;
     for (int axis = 0; axis < 3; ++axis)
       if (e.name == "vertex" &&
@@ -125,7 +125,7 @@ void check(const FileText& file, const PlyHeader& header) {
         fail(e, std::string("element 'vertex' must have one property '") + "xyz"[axis] + "'");
     if ((e.name == "face" || e.name == "tristrips") && e.count > 0 &&
         std::count_if(p.begin(), p.end(), [](const PlyProperty& q) { return q.is_corners; }) != 1)
-      fail(e, "element " + quoted(e.name) + " must have one list 'vertex_indices' (or 'vertex_index')");
+      fail(e, "element " + toposcope::quoted(e.name) + " must have one list 'vertex_indices' (or 'vertex_index')");
   }
 }
 

@@ -11,7 +11,7 @@ namespace toposcope {
 namespace {
 
 /// A DOT string: quoted; what DOT takes for an escape or the end of the string is escaped, a new line is written \n.
-std::string quoted(std::string_view text) {
+std::string dot_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -27,7 +27,7 @@ using Attributes = std::initializer_list<std::pair<const char*, std::string>>;
 
 std::string listed(const Attributes& attributes) {
   std::string out = " [";
-  for (const auto& [name, value] : attributes) out += (out.size() > 2 ? ", " : "") + (name + ("=" + quoted(value)));
+  for (const auto& [name, value] : attributes) out += (out.size() > 2 ? ", " : "") + (name + ("=" + dot_string(value)));
   return out + "];\n";
 }
 
@@ -40,7 +40,7 @@ class DotWriter {
   explicit DotWriter(const Model& model) : model_(model), drawn_in_(model.abstract.objects.size()) {}
 
   std::string write() {
-    out_ = "digraph " + quoted(model_.name) + " {\n";
+    out_ = "digraph " + dot_string(model_.name) + " {\n";
     std::string title = model_.name;
     if (!model_.summary.empty()) title += ": " + model_.summary;
     if (!model_.citation.empty()) title += "\n" + model_.citation;
@@ -66,7 +66,7 @@ class DotWriter {
 
  private:
   void begin_cluster(const std::string& name, const std::string& label, const std::string& color) {
-    out_ += "  subgraph " + quoted("cluster_" + name) + " {\n";
+    out_ += "  subgraph " + dot_string("cluster_" + name) + " {\n";
     out_ += "    graph" + listed({{"label", label},
                                   {"style", "rounded,filled"},
                                   {"color", "#bbbbbb"},

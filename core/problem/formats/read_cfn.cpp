@@ -20,9 +20,9 @@ bool begins_number(std::string_view word) {
   return !word.empty() && (is_digit(word[0]) || word[0] == '-' || word[0] == '+' || word[0] == '.');
 }
 
-class Reader {
+class CfnReader {
  public:
-  Reader(const std::string& name, std::string_view bytes)
+  CfnReader(const std::string& name, std::string_view bytes)
       : text_(name, bytes, {":,", "{}[]", true, true}), builder_(text_) {}
 
   ProblemFile read() {
@@ -259,7 +259,7 @@ class Reader {
 }  // namespace
 
 ProblemFile read_cfn(const std::string& name, std::string_view text) {
-  return Reader(name, text).read();
+  return CfnReader(name, text).read();
 }
 
 }  // namespace toposcope

@@ -18,9 +18,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-class Reader {
+class JsonReader {
  public:
-  Reader(const std::string& name, std::string_view text) : name_(name), text_(text) {
+  JsonReader(const std::string& name, std::string_view text) : name_(name), text_(text) {
     try {
       root_ = Json::parse(text);
     } catch (const Json::parse_error& error) {
@@ -208,7 +208,7 @@ class Reader {
 }  // namespace
 
 ProblemFile read_problem_json(const std::string& name, std::string_view text) {
-  return Reader(name, text).read();
+  return JsonReader(name, text).read();
 }
 
 }  // namespace toposcope

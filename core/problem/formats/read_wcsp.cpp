@@ -10,9 +10,9 @@
 namespace toposcope {
 namespace {
 
-class Reader {
+class WcspReader {
  public:
-  Reader(const std::string& name, std::string_view bytes) : text_(name, bytes, {}), builder_(text_) {}
+  WcspReader(const std::string& name, std::string_view bytes) : text_(name, bytes, {}), builder_(text_) {}
 
   ProblemFile read() {
     const std::int64_t functions = header();
@@ -121,7 +121,7 @@ class Reader {
 }  // namespace
 
 ProblemFile read_wcsp(const std::string& name, std::string_view text) {
-  return Reader(name, text).read();
+  return WcspReader(name, text).read();
 }
 
 }  // namespace toposcope

@@ -9,7 +9,7 @@ namespace toposcope {
 
 namespace {
 
-constexpr const char* kind = "cup";
+constexpr const char* cup_kind = "cup";
 
 /// Length taken from each leg of a corner of turning angle `turn` by an arc.
 double tangent(double radius, double turn) {
@@ -17,71 +17,74 @@ double tangent(double radius, double turn) {
 }
 
 void check_side(const Cup& c) {
-  require(std::abs(c.side.lower_slant()) <= pi / 3.5 && std::abs(c.side.upper_slant()) <= pi / 3.5, kind, "top_radius",
-          c.top_radius, "the side may lean at most 51 degrees", "bring the radii closer, lower bulge or raise height");
+  require(std::abs(c.side.lower_slant()) <= pi / 3.5 && std::abs(c.side.upper_slant()) <= pi / 3.5, cup_kind,
+          "top_radius", c.top_radius, "the side may lean at most 51 degrees",
+          "bring the radii closer, lower bulge or raise height");
   if (c.side.straight()) return;
   const double at = c.side.middle_height();
-  require(at >= 0.2 * c.height && at <= 0.8 * c.height, kind, "bulge_height", at,
+  require(at >= 0.2 * c.height && at <= 0.8 * c.height, cup_kind, "bulge_height", at,
           "it must lie between 0.2 and 0.8 height", "choose it in that range");
-  require(c.side.arc() >= 1.5 * c.wall, kind, "bulge", c.side.radius(at), "the wall bends too sharply",
+  require(c.side.arc() >= 1.5 * c.wall, cup_kind, "bulge", c.side.radius(at), "the wall bends too sharply",
           "give a smaller one");
 }
 
 void check_foot(const Cup& c) {
   const double turn = pi / 2 - c.side.lower_slant();
   const double inner_line = 0.25 * (c.side.straight() ? c.height : c.side.middle_height());
-  require(c.foot >= 0.1 * c.wall, kind, "foot_fillet", c.foot, "it must be at least wall / 10", "give a larger one");
-  require(tangent(c.foot, turn) <= 0.9 * c.bottom_radius && tangent(c.foot, turn) <= inner_line, kind, "foot_fillet",
-          c.foot, "the rounded foot must leave a flat bottom and a straight side", "give a smaller one");
-  require(c.foot * (1 - std::sqrt(0.5)) <= 0.7 * std::min(c.wall, c.bottom), kind, "foot_fillet", c.foot,
+  require(c.foot >= 0.1 * c.wall, cup_kind, "foot_fillet", c.foot, "it must be at least wall / 10",
+          "give a larger one");
+  require(tangent(c.foot, turn) <= 0.9 * c.bottom_radius && tangent(c.foot, turn) <= inner_line, cup_kind,
+          "foot_fillet", c.foot, "the rounded foot must leave a flat bottom and a straight side", "give a smaller one");
+  require(c.foot * (1 - std::sqrt(0.5)) <= 0.7 * std::min(c.wall, c.bottom), cup_kind, "foot_fillet", c.foot,
           "it must not cut through wall and bottom", "give a smaller one or a thicker wall");
   require(c.inner >= 0.1 * c.wall && tangent(c.inner, turn) <= 0.9 * c.inner_radius(c.floor()) &&
               c.floor() + tangent(c.inner, turn) <= 1.15 * inner_line + 0.2 * c.floor(),
-          kind, "inner_fillet", c.inner, "it must be at least wall / 10 and leave a flat bottom and a straight wall",
-          "choose it in that range");
+          cup_kind, "inner_fillet", c.inner,
+          "it must be at least wall / 10 and leave a flat bottom and a straight wall", "choose it in that range");
   if (!c.has_ring) return;
-  require(c.ring_width >= 0.8 * c.wall && c.ring_width <= 0.5 * c.bottom_radius, kind, "ring_width", c.ring_width,
+  require(c.ring_width >= 0.8 * c.wall && c.ring_width <= 0.5 * c.bottom_radius, cup_kind, "ring_width", c.ring_width,
           "it must lie between 0.8 wall and bottom_radius / 2", "choose it in that range");
-  require(c.ring_depth <= 0.12 * c.height && c.ring_depth <= 1.5 * c.ring_width, kind, "ring_depth", c.ring_depth,
+  require(c.ring_depth <= 0.12 * c.height && c.ring_depth <= 1.5 * c.ring_width, cup_kind, "ring_depth", c.ring_depth,
           "it must be at most 0.12 height and 1.5 ring_width", "give a smaller one");
-  require(tangent(c.foot, turn) <= 0.6 * c.ring_width, kind, "foot_fillet", c.foot,
+  require(tangent(c.foot, turn) <= 0.6 * c.ring_width, cup_kind, "foot_fillet", c.foot,
           "the foot ring must be wider than its rounding", "give a smaller one or a wider ring");
 }
 
 void check_body(const Cup& c) {
   const double slack = 1 + 1e-9;
   check_side(c);
-  require(c.wall >= 0.02 * std::max(2 * c.side.widest(), c.height), kind, "wall", c.wall,
+  require(c.wall >= 0.02 * std::max(2 * c.side.widest(), c.height), cup_kind, "wall", c.wall,
           "the wall must be at least 2 % of the cup's largest side", "give a thicker wall");
-  require(c.bottom >= 0.5 * c.wall && c.floor() <= 0.5 * c.height, kind, "bottom_thickness", c.bottom,
+  require(c.bottom >= 0.5 * c.wall && c.floor() <= 0.5 * c.height, cup_kind, "bottom_thickness", c.bottom,
           "it must lie between wall / 2 and height / 2", "choose it near wall");
-  require(c.lip >= 0.1 * c.wall && c.lip <= 0.5 * c.wall * slack, kind, "lip_radius", c.lip,
+  require(c.lip >= 0.1 * c.wall && c.lip <= 0.5 * c.wall * slack, cup_kind, "lip_radius", c.lip,
           "it must lie between wall / 10 and wall / 2 (fully round)", "choose it in that range");
-  require(c.inner_radius(c.floor()) > 0.2 * c.bottom_radius && c.inner_radius(c.height) > 0.2 * c.top_radius, kind,
+  require(c.inner_radius(c.floor()) > 0.2 * c.bottom_radius && c.inner_radius(c.height) > 0.2 * c.top_radius, cup_kind,
           "wall", c.wall, "the wall must be thinner than the radius", "give a thinner wall or larger radii");
   check_foot(c);
 }
 
 void check_handle(const Cup& c) {
   const double half = c.handle_height / 2, around = c.thickness + c.fillet;
-  require(c.thickness >= 0.5 * c.wall, kind, "handle_thickness", c.thickness, "it must be at least wall / 2",
+  require(c.thickness >= 0.5 * c.wall, cup_kind, "handle_thickness", c.thickness, "it must be at least wall / 2",
           "give a thicker handle");
-  require(c.fillet >= 0.1 * c.thickness, kind, "handle_fillet", c.fillet, "it must be at least handle_thickness / 10",
-          "give a larger one");
-  require(half > around, kind, "handle_height", c.handle_height,
+  require(c.fillet >= 0.1 * c.thickness, cup_kind, "handle_fillet", c.fillet,
+          "it must be at least handle_thickness / 10", "give a larger one");
+  require(half > around, cup_kind, "handle_height", c.handle_height,
           "half of it must exceed handle_thickness + handle_fillet: the handle needs a hole",
           "give a higher or thinner handle");
-  require(c.reach > around + 0.5 * c.thickness, kind, "handle_reach", c.reach,
+  require(c.reach > around + 0.5 * c.thickness, cup_kind, "handle_reach", c.reach,
           "it must exceed 1.5 handle_thickness + handle_fillet: the handle needs a hole", "let it reach further");
   const double top = c.height - c.wall - around, bottom = std::max(c.foot, c.floor() + c.inner) + around;
-  require(c.handle_center + half <= top && c.handle_center - half >= bottom, kind, "handle_center", c.handle_center,
+  require(c.handle_center + half <= top && c.handle_center - half >= bottom, cup_kind, "handle_center", c.handle_center,
           "both ends of the handle and their fillets must lie between the foot and the lip",
           fmt::format("move the handle or lower handle_height, now from {} to {} where {} to {} is free",
                       c.handle_center - half, c.handle_center + half, bottom, top));
   require(around + c.fillet < 0.7 * c.side.radius(c.handle_center - half) &&
               around + c.fillet < 0.7 * c.side.radius(c.handle_center + half),
-          kind, "handle_thickness", c.thickness, "the handle must be narrower than the cup", "give a thinner handle");
-  require(handle_gap(c) >= std::max(0.4 * c.thickness, 2.2 * c.fillet), kind, "handle_reach", c.reach,
+          cup_kind, "handle_thickness", c.thickness, "the handle must be narrower than the cup",
+          "give a thinner handle");
+  require(handle_gap(c) >= std::max(0.4 * c.thickness, 2.2 * c.fillet), cup_kind, "handle_reach", c.reach,
           "the grip must clear the cup's side by 0.4 handle_thickness and 2.2 handle_fillet",
           "let it reach further, or give a smaller fillet");
 }

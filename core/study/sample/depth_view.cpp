@@ -11,8 +11,8 @@ namespace toposcope {
 
 namespace {
 
-constexpr float least_cosine = 0.2588F;  // 75 degrees from the normal
-constexpr double steepest = 3.7320508;   // tan 75 degrees
+constexpr float least_cosine = 0.2588F;      // 75 degrees from the normal
+constexpr double steepest_seen = 3.7320508;  // tan 75 degrees
 
 struct Plane {
   Vec3 normal = Vec3::Zero();
@@ -43,7 +43,7 @@ std::vector<float> normal_numbers(std::uint64_t seed) {
   return numbers;
 }
 
-struct Corner {
+struct SeenCorner {
   double x, y, w;
 };
 
@@ -83,7 +83,7 @@ class Camera {
     Vec2 low = Vec2::Constant(1e300), high = -low;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const Vec3 p = view.axes * (mesh_.positions[i] - view.viewpoint);
-      Corner& corner = corners_[i];
+      SeenCorner& corner = corners_[i];
       corner.w = 1 / p.z();
       corner.x = view.focal * p.x() * corner.w;
       corner.y = view.focal * p.y() * corner.w;
@@ -94,14 +94,14 @@ class Camera {
     view.center_y = 2 - std::floor(low.y());
     columns_ = static_cast<int>(std::ceil(high.x()) + view.center_x) + 3;
     rows_ = static_cast<int>(std::ceil(high.y()) + view.center_y) + 3;
-    for (Corner& corner : corners_) {
+    for (SeenCorner& corner : corners_) {
       corner.x += view.center_x;
       corner.y += view.center_y;
     }
   }
 
   void draw(const Triangle& t, float plane) {
-    const Corner &a = corners_[t[0]], &b = corners_[t[1]], &c = corners_[t[2]];
+    const SeenCorner &a = corners_[t[0]], &b = corners_[t[1]], &c = corners_[t[2]];
     const int left = static_cast<int>(std::ceil(std::min({a.x, b.x, c.x})));
     const int right = static_cast<int>(std::max({a.x, b.x, c.x}));
     const int top = static_cast<int>(std::ceil(std::min({a.y, b.y, c.y})));
@@ -147,7 +147,7 @@ class Camera {
     view.width = static_cast<std::uint32_t>(columns_ - 1);
     view.height = static_cast<std::uint32_t>(rows_ - 1);
     view.cells.resize(static_cast<std::size_t>(view.width) * view.height);
-    const auto jump = static_cast<float>(steepest * scanner_.pixel + 4 * scanner_.noise);
+    const auto jump = static_cast<float>(steepest_seen * scanner_.pixel + 4 * scanner_.noise);
     for (std::uint32_t y = 0; y < view.height; ++y)
       for (std::uint32_t x = 0; x < view.width; ++x) {
         const Pixel* upper = pixels_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + x;
@@ -176,7 +176,7 @@ class Camera {
   const std::vector<Plane>& planes_;
   const DepthScanner& scanner_;
   const std::vector<float>& noise_;
-  std::vector<Corner> corners_;
+  std::vector<SeenCorner> corners_;
   std::vector<Pixel> pixels_;
   int columns_ = 0, rows_ = 0;
 };

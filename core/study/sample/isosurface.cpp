@@ -15,7 +15,7 @@ namespace toposcope {
 namespace {
 
 constexpr std::size_t block = 16;
-constexpr double steepest = 1.25;  ///< change of the function per unit of length
+constexpr double steepest_change = 1.25;  ///< change of the function per unit of length
 constexpr Index none = std::numeric_limits<Index>::max();
 
 /// Fills a cube of nodes: with its centre's value where that tells the sign of them all and none is next to the
@@ -29,7 +29,7 @@ void fill_cube(NodeGrid& grid, const Implicit& surface, double level, const std:
   }
   const double half = static_cast<double>(side - 1) / 2;
   const double center = surface(grid.position(x0, y0, z0, Vec3::Constant(half))).value - level;
-  if (std::abs(center) > steepest * grid.spacing * (half * std::sqrt(3.0) + 1)) {
+  if (std::abs(center) > steepest_change * grid.spacing * (half * std::sqrt(3.0) + 1)) {
     for (std::size_t z = z0; z < z0 + side; ++z)
       for (std::size_t y = y0; y < y0 + side; ++y)
         std::fill_n(grid.values.begin() + static_cast<std::ptrdiff_t>(grid.node(x0, y, z)), side,

@@ -9,8 +9,6 @@
 namespace toposcope {
 namespace {
 
-using Json = nlohmann::json;
-
 /// Reads members of a document; errors name the file and the member as a JSON pointer.
 class Reader {
  public:
@@ -20,7 +18,7 @@ class Reader {
     throw UsageError(file_ + ": " + (place.empty() ? "" : place + ": ") + what + " (schemas/truth.schema.json)");
   }
 
-  Truth read(const Json& root) const {
+  Truth read(const nlohmann::json& root) const {
     if (!root.is_object()) fail("", "a truth file holds a JSON object");
     Truth truth;
     if (root.contains("class") && root["class"].is_string()) truth.class_name = root["class"];
@@ -29,7 +27,7 @@ class Reader {
     for (const auto& [name, node] : root["features"].items())
       truth.features.push_back(feature(name, node, "/features/" + name));
     if (root.contains("frame")) {
-      const Json& frame = root["frame"];
+      const nlohmann::json& frame = root["frame"];
       if (frame.contains("mean_edge")) truth.mean_edge = length(frame["mean_edge"], "/frame/mean_edge");
       if (frame.contains("bbox_diagonal")) truth.diagonal = length(frame["bbox_diagonal"], "/frame/bbox_diagonal");
     }
@@ -37,30 +35,30 @@ class Reader {
   }
 
  private:
-  double number(const Json& node, const std::string& place) const {
+  double number(const nlohmann::json& node, const std::string& place) const {
     if (!node.is_number() || !std::isfinite(node.get<double>())) fail(place, "expected a number");
     return node.get<double>();
   }
 
-  double length(const Json& node, const std::string& place) const {
+  double length(const nlohmann::json& node, const std::string& place) const {
     const double value = number(node, place);
     if (!(value > 0)) fail(place, "expected a length above 0");
     return value;
   }
 
-  Vec3 triple(const Json& node, const std::string& place) const {
+  Vec3 triple(const nlohmann::json& node, const std::string& place) const {
     if (!node.is_array() || node.size() != 3) fail(place, "expected three numbers");
     return {number(node[0], place + "/0"), number(node[1], place + "/1"), number(node[2], place + "/2")};
   }
 
-  std::vector<Vec3> triples(const Json& node, const std::string& place) const {
+  std::vector<Vec3> triples(const nlohmann::json& node, const std::string& place) const {
     if (!node.is_array()) fail(place, "expected a list of points");
     std::vector<Vec3> points;
     for (std::size_t i = 0; i < node.size(); ++i) points.push_back(triple(node[i], place + "/" + std::to_string(i)));
     return points;
   }
 
-  TruthFeature feature(const std::string& name, const Json& node, const std::string& place) const {
+  TruthFeature feature(const std::string& name, const nlohmann::json& node, const std::string& place) const {
     if (!node.is_object() || (!node.contains("points") && !node.contains("groups")))
       fail(place, "expected an object with 'points' or 'groups'");
     TruthFeature feature;
@@ -79,12 +77,12 @@ class Reader {
   }
 
   /// Adds a node's points and, where they are given, their vertices.
-  void read_marks(const Json& node, const std::string& place, TruthFeature& feature) const {
+  void read_marks(const nlohmann::json& node, const std::string& place, TruthFeature& feature) const {
     if (!node.contains("points")) return;
     const std::vector<Vec3> points = triples(node["points"], place + "/points");
     feature.points.insert(feature.points.end(), points.begin(), points.end());
     if (!node.contains("vertices")) return;
-    const Json& vertices = node["vertices"];
+    const nlohmann::json& vertices = node["vertices"];
     if (!vertices.is_array() || vertices.size() != points.size())
       fail(place + "/vertices", "expected as many vertices as points");
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -94,7 +92,7 @@ class Reader {
     }
   }
 
-  void read_group(const Json& node, const std::string& place, TruthFeature& feature) const {
+  void read_group(const nlohmann::json& node, const std::string& place, TruthFeature& feature) const {
     if (!node.is_object() || !node.contains("points")) fail(place, "expected an object with 'points'");
     TruthGroup& group = feature.groups.emplace_back();
     if (node.contains("name") && node["name"].is_string()) group.name = node["name"];
@@ -110,7 +108,7 @@ class Reader {
   }
 
   /// A number, a truth value, or a list of numbers or points.
-  std::vector<double> parameter(const Json& node, const std::string& place) const {
+  std::vector<double> parameter(const nlohmann::json& node, const std::string& place) const {
     if (node.is_boolean()) return {node.get<bool>() ? 1.0 : 0.0};
     if (!node.is_array()) return {number(node, place)};
     std::vector<double> values;
@@ -126,7 +124,7 @@ class Reader {
     return values;
   }
 
-  void read_parameters(const Json& node, const std::string& place, TruthFeature& feature) const {
+  void read_parameters(const nlohmann::json& node, const std::string& place, TruthFeature& feature) const {
     if (!node.is_object()) fail(place, "expected an object");
     for (const auto& [name, value] : node.items())
       feature.parameters.emplace_back(name, parameter(value, place + "/" + name));
@@ -134,8 +132,8 @@ class Reader {
   }
 
   /// Its normal comes out of length 1.
-  void check_band(const Json& node, const std::string& place, TruthFeature& feature) const {
-    const Json& radii = node["band"];
+  void check_band(const nlohmann::json& node, const std::string& place, TruthFeature& feature) const {
+    const nlohmann::json& radii = node["band"];
     if (!radii.is_array() || radii.size() != 2 || !node.contains("center") || !node.contains("normal"))
       fail(place, "'band' is two radii, beside 'center' and 'normal'");
     length(radii[0], place + "/band/0");
@@ -157,12 +155,12 @@ Truth read_truth(const std::filesystem::path& path) {
   const std::string text = read_text_file(path, "truth file");
   const Reader reader(path.string());
   try {
-    Json root = Json::parse(text);
+    nlohmann::json root = nlohmann::json::parse(text);
     Truth truth = reader.read(root);
     root.erase("parts");
     truth.document = root.dump();
     return truth;
-  } catch (const Json::exception& error) {
+  } catch (const nlohmann::json::exception& error) {
     reader.fail("", std::string("is no JSON: ") + error.what());
   }
 }
