@@ -83,7 +83,7 @@ std::string printable(std::string_view text) {
     if (character.bytes > 0 && !obeyed(character.code)) {
       shown += text.substr(0, character.bytes);
     } else {
-      char escape[8];
+      char escape[12];
       if (character.bytes > 0)
         std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(character.code));
       else

@@ -64,8 +64,8 @@ TEST_F(BoundRelations, TheModelsToleranceIsInTheResidualsUnit) {
 }
 
 TEST_F(BoundRelations, AnArgumentThatIsNoNumberIsRefused) {
-  model.relationships[0].arguments = {{"min", expression("bb(O).a/bb(O).c")}};  // flat: bb(O).c is 0
-  EXPECT_THAT(refusal<UsageError>(), AllOf(HasSubstr("'min: bb(O).a/bb(O).c'"), HasSubstr("no number")));
+  model.relationships[0].arguments = {{"min", expression("bb(O).a/(bb(O).a - bb(O).a)")}};
+  EXPECT_THAT(refusal<UsageError>(), AllOf(HasSubstr("'min: bb(O).a/(bb(O).a - bb(O).a)'"), HasSubstr("no number")));
 }
 
 TEST_F(BoundRelations, AnArgumentAboveWhatItMayNotExceedIsRefused) {
