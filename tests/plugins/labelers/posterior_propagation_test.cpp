@@ -51,6 +51,7 @@ TEST(Posterior, BeliefPropagationIsExactOnForests) {
     }
     ++propagated;
     EXPECT_EQ(test::fact(outcome, "converged"), "yes");
+    EXPECT_EQ(outcome.evidence_exactness, Exactness::exact);
     EXPECT_NEAR(outcome.log_evidence, sums.log_evidence, 1e-9);
     test::expect_posteriors(outcome, sums.posteriors, 1e-9);
     ASSERT_FALSE(outcome.labelings.empty());
@@ -68,6 +69,8 @@ TEST(Posterior, LoopyBeliefPropagationSaysSoAndIsNear) {
     const LabelingOutcome outcome = test::solve_posterior(problem, {{"method", "belief-propagation"}});
     if (all.empty() || outcome.guarantee.substr(0, 5) == "exact") continue;
     EXPECT_EQ(outcome.guarantee.substr(0, 11), "approximate") << outcome.guarantee;
+    EXPECT_EQ(outcome.posterior_exactness, Exactness::approximate);
+    EXPECT_EQ(outcome.evidence_exactness, Exactness::approximate);
     EXPECT_NE(test::fact(outcome, "sweeps"), "");
     EXPECT_NE(test::fact(outcome, "residual"), "");
     EXPECT_FALSE(outcome.optimal);

@@ -20,6 +20,8 @@ void expect_exact(const LabelingProblem& problem, const LabelingOutcome& outcome
   SCOPED_TRACE(what);
   const std::vector<Labeling> all = test::all_labelings(problem);
   const test::BruteForce sums = test::sums(problem, all);
+  EXPECT_EQ(outcome.evidence_exactness, Exactness::exact);
+  EXPECT_EQ(outcome.posterior_exactness, all.empty() ? Exactness::none : Exactness::exact);
   if (all.empty()) {
     EXPECT_EQ(outcome.log_evidence, -forbidden);
     EXPECT_TRUE(outcome.posteriors.empty());
@@ -111,7 +113,7 @@ TEST(Posterior, EmptyProblemAndProblemsWithoutConstraints) {
 // What search leaves out is proven: with a coarse tolerance the truth lies within what is stated.
 TEST(Posterior, StatedErrorHolds) {
   test::RandomKind kind{.variables = 6, .domain = 5, .arity = 3, .constraints = 8};
-  int coarse = 0;
+  int coarse = 0, bounds = 0;
   for (std::uint64_t seed = 0; seed < 300 && !HasFailure(); ++seed) {
     const LabelingProblem problem = test::random_problem(kind, seed);
     const auto all = test::all_labelings(problem);
@@ -124,9 +126,13 @@ TEST(Posterior, StatedErrorHolds) {
     EXPECT_GE(error, -1e-12);
     EXPECT_LE(error, stated);
     coarse += error > 1e-6;
+    bounds += outcome.evidence_exactness == Exactness::bound && outcome.posterior_exactness == Exactness::bound;
+    EXPECT_NEAR(outcome.log_evidence, sums.log_evidence, outcome.evidence_error + 1e-9);
+    test::expect_posteriors(outcome, sums.posteriors, outcome.posterior_error + 1e-9);
     test::expect_posteriors(outcome, sums.posteriors, stated);
   }
   EXPECT_GT(coarse, 50);
+  EXPECT_GE(bounds, coarse);
 }
 
 }  // namespace
