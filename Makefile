@@ -2,6 +2,7 @@
 # make demo   install what is needed, build, label a cup and classify a tee
 # make test   install what is needed, build, run the tests
 # make pages   renew the tables of options in the plugins' pages
+# make docs   one site of all pages, the models' pictures and the headers' reference, in build/site
 # make abi    record the plugin ABI of a new version
 # make packages   the Debian packages
 # make evaluate   measure: made and real meshes against their truth, tables in evaluation/
@@ -13,7 +14,7 @@ TOPOSCOPE := $(BUILD)/bin/toposcope
 # Compiling Eigen and Ceres takes about 1 GB a job.
 JOBS ?= $(shell nproc)
 
-.PHONY: all deps configure demo test packages pages abi evaluate screenshots bench fuzz format lint clean
+.PHONY: all deps configure demo test packages pages docs abi evaluate screenshots bench fuzz format lint clean
 all: configure
 	cmake --build $(BUILD) -j $(JOBS)
 
@@ -41,6 +42,13 @@ pages: configure
 	for page in plugins/*/*/*.md; do \
 	  $(TOPOSCOPE) plugins describe $$(basename $$page .md) --page $$page || exit 1; \
 	done
+
+# One browsable site, build/site/index.html; links, citations and examples are tried, doxygen's warnings shown.
+docs: configure
+	@./scripts/install-deps doxygen python3-markdown-it
+	cmake --build $(BUILD) -j $(JOBS) --target program
+	ctest --preset $(PRESET) -R '^docs_'
+	./scripts/docs/site.py $(TOPOSCOPE) build/site
 
 # Records the layout of the plugin boundary under its version, where there is no record yet.
 abi: configure

@@ -101,16 +101,16 @@ void print_options() {
   VALUE(OptionType, integer);
   VALUE(OptionType, boolean);
   VALUE(OptionType, text);
-  STRUCT(OptionSpec,
-         MEMBER(name) MEMBER(type) MEMBER(unit) MEMBER(default_value) MEMBER(minimum) MEMBER(maximum) MEMBER(meaning))
+  STRUCT(OptionSpec, MEMBER(name) MEMBER(type) MEMBER(unit) MEMBER(default_value) MEMBER(minimum) MEMBER(maximum)
+                         MEMBER(meaning) MEMBER(choices) MEMBER(not_above))
   STRUCT(OptionValue, MEMBER(name) MEMBER(number) MEMBER(text))
   std::printf("size Options %zu\n", sizeof(Options));
   STRUCT(ProvidedName, MEMBER(name) MEMBER(dimension) MEMBER(meaning))
   STRUCT(PluginDescriptor,
          MEMBER(struct_size) MEMBER(major) MEMBER(minor) MEMBER(fingerprint) MEMBER(kind) MEMBER(id) MEMBER(version)
              MEMBER(summary) MEMBER(citation) MEMBER(unit) MEMBER(min_arity) MEMBER(max_arity) MEMBER(ordered)
-                 MEMBER(options) MEMBER(option_count) MEMBER(arguments) MEMBER(argument_count) MEMBER(provides)
-                     MEMBER(provided_count) MEMBER(create) MEMBER(destroy) MEMBER(programs))
+                 MEMBER(dimension) MEMBER(options) MEMBER(option_count) MEMBER(arguments) MEMBER(argument_count)
+                     MEMBER(provides) MEMBER(provided_count) MEMBER(create) MEMBER(destroy) MEMBER(programs))
 }
 
 void print_geometry() {
@@ -118,7 +118,7 @@ void print_geometry() {
               sizeof(Index), sizeof(Triangle));
   STRUCT(Box, MEMBER(center) MEMBER(axes) MEMBER(sides))
   STRUCT(MeshView, MEMBER(positions) MEMBER(triangles) MEMBER(neighbor_offsets) MEMBER(neighbors) MEMBER(face_offsets)
-                       MEMBER(faces) MEMBER(box) MEMBER(mean_edge))
+                       MEMBER(faces) MEMBER(box) MEMBER(mean_edge) MEMBER(input_vertices))
 }
 
 void print_shapes() {
@@ -138,12 +138,12 @@ void print_shapes() {
                               MEMBER(centroid_sd) MEMBER(outline) MEMBER(outline_closed) MEMBER(rms) MEMBER(explained)
                                   MEMBER(unexplained) MEMBER(coverage))
   STRUCT(FitInput, MEMBER(points) MEMBER(areas) MEMBER(set_offsets) MEMBER(set_boxes) MEMBER(box) MEMBER(object_box)
-                       MEMBER(mean_edge) MEMBER(bends))
+                       MEMBER(mean_edge) MEMBER(integrated_mean_curvature) MEMBER(mesh) MEMBER(vertices))
   STRUCT(Interval, MEMBER(low) MEMBER(high))
 }
 
 void print_relations_and_labeling() {
-  STRUCT(RelationOperand, MEMBER(shape) MEMBER(points) MEMBER(box))
+  STRUCT(RelationOperand, MEMBER(shape) MEMBER(points) MEMBER(box) MEMBER(vertices))
   STRUCT(RelationInput, MEMBER(features) MEMBER(object_box) MEMBER(mean_edge) MEMBER(mesh))
   STRUCT(RelationResult, MEMBER(applicable) MEMBER(why) MEMBER(residual) MEMBER(tolerance) MEMBER(sd) MEMBER(dof)
                              MEMBER(slack) MEMBER(clutter_density) MEMBER(samples))
@@ -154,10 +154,16 @@ void print_relations_and_labeling() {
                               MEMBER(conflict_bits))
   STRUCT(LabelingRequest, MEMBER(k_best) MEMBER(time_limit_s) MEMBER(within))
   STRUCT(Labeling, MEMBER(values) MEMBER(cost))
-  STRUCT(FallenValue, MEMBER(variable) MEMBER(value) MEMBER(reason))
+  STRUCT(RemovedValue, MEMBER(variable) MEMBER(value) MEMBER(reason))
   STRUCT(LabelingFact, MEMBER(name) MEMBER(value))
-  STRUCT(LabelingOutcome, MEMBER(labelings) MEMBER(lower_bound) MEMBER(optimal) MEMBER(log_evidence) MEMBER(posteriors)
-                              MEMBER(nodes) MEMBER(guarantee) MEMBER(fallen) MEMBER(facts))
+  VALUE(Exactness, none);
+  VALUE(Exactness, exact);
+  VALUE(Exactness, bound);
+  VALUE(Exactness, approximate);
+  STRUCT(LabelingOutcome,
+         MEMBER(labelings) MEMBER(lower_bound) MEMBER(optimal) MEMBER(log_evidence) MEMBER(evidence_exactness)
+             MEMBER(evidence_error) MEMBER(posteriors) MEMBER(posterior_exactness) MEMBER(posterior_error) MEMBER(nodes)
+                 MEMBER(guarantee) MEMBER(removed) MEMBER(facts))
 }
 
 }  // namespace
@@ -172,6 +178,7 @@ struct AContext final : Context {
   std::uint64_t seed() const override { return 0; }
   unsigned threads() const override { return 1; }
   void parallel_for(std::size_t, std::size_t, const std::function<void(std::size_t, std::size_t)>&) override {}
+  std::uint64_t memory_budget() const override { return 0; }
 };
 struct AWorkingSetSink final : WorkingSetSink {
   void add(std::string_view, std::span<const Index>, double) override {}
@@ -190,7 +197,7 @@ struct ALabeler final : Labeler {
   LabelingOutcome solve(const LabelingProblem&, const LabelingRequest&, Context&) const override { return {}; }
 };
 struct AMeshSink final : MeshSink {
-  void set(std::span<const Vec3>, std::span<const Triangle>, std::span<const Index>) override {}
+  void set(std::span<const Vec3>, std::span<const Triangle>, std::span<const Index>, std::span<const Index>) override {}
 };
 struct AFilter final : MeshFilter {
   void apply(const MeshView&, Context&, MeshSink&) const override {}
@@ -208,7 +215,7 @@ void print_interfaces() {
   const AContext context;
   INTERFACE(Context, context,
             SLOT(Context, log) SLOT(Context, progress) SLOT(Context, cancelled) SLOT(Context, seed)
-                SLOT(Context, threads) SLOT(Context, parallel_for))
+                SLOT(Context, threads) SLOT(Context, parallel_for) SLOT(Context, memory_budget))
   const AWorkingSetSink sets;
   INTERFACE(WorkingSetSink, sets, SLOT(WorkingSetSink, add))
   const AClassifier classifier;

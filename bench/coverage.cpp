@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -26,7 +25,9 @@
 #include "picture.h"
 #include "pipeline/working_sets.h"
 #include "plugin/plugin_host.h"
+#include "table/table.h"
 #include "toposcope/geometry/lines.h"
+#include "truth/truth.h"
 
 namespace {
 
@@ -34,28 +35,26 @@ using namespace toposcope;
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-using Marks = std::vector<std::vector<Vec3>>;  ///< groups of points on the mesh
-
 struct Feature {
   std::string name;
-  int color = 0;  ///< its place in the file, whether other features are missing or not
-  Marks groups;
+  int color = 0;                          ///< its place in the file, whether other features are missing or not
+  std::vector<std::vector<Vec3>> groups;  ///< points on the mesh
 };
 
-std::vector<Feature> read_marks(const json& truth, const TriangleSoup& soup) {
+/// The marked vertices of each feature that is there, by groups. \param positions  of the mesh that was marked
+std::vector<Feature> read_marks(const Truth& truth, const std::vector<Vec3>& positions) {
   std::vector<Feature> features;
   int color = 0;
-  for (const auto& [name, entry] : truth["features"].items()) {
-    Feature feature{name, color++, {}};
-    const auto add = [&](const json& group) {
-      std::vector<Vec3> points;
-      for (const json& v : group.value("vertices", json::array())) points.push_back(soup.positions[v.get<Index>()]);
-      if (!points.empty()) feature.groups.push_back(std::move(points));
-    };
-    if (entry.contains("groups"))
-      for (const json& group : entry["groups"]) add(group);
-    else
-      add(entry);
+  for (const TruthFeature& marked : truth.features) {
+    Feature feature{marked.name, color++, {}};
+    if (marked.groups.empty() && !marked.vertices.empty()) {
+      std::vector<Vec3>& points = feature.groups.emplace_back();
+      for (const Index v : marked.vertices) points.push_back(positions[v]);
+    }
+    for (const TruthGroup& group : marked.groups) {
+      std::vector<Vec3>& points = feature.groups.emplace_back();
+      for (const Index i : group.members) points.push_back(positions[marked.vertices.at(i)]);
+    }
     if (!feature.groups.empty()) features.push_back(std::move(feature));
   }
   return features;
@@ -144,8 +143,8 @@ bench::View view_of(const json& frame) {
 std::optional<Mesh> filtered(const MeshView& mesh, const MeshFilter& filter, Context& context) {
   struct Sink final : MeshSink {
     std::optional<TriangleSoup> soup;
-    void set(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-             std::span<const Index> origin) override {
+    void set(std::span<const Vec3> positions, std::span<const Triangle> triangles, std::span<const Index> origin,
+             std::span<const Index>) override {
       soup.emplace();
       soup->positions.assign(positions.begin(), positions.end());
       soup->triangles.assign(triangles.begin(), triangles.end());
@@ -168,28 +167,26 @@ struct Tally {
 /// Measures one class of objects at one resolution and draws its row of the picture.
 class Measurement {
  public:
-  Measurement(PluginHost& host, const std::string& plugin, const std::vector<std::string>& settings)
-      : host_(host), plugin_(plugin) {
+  Measurement(PluginHost& host, const std::string& plugin, const std::vector<std::string>& settings) : host_(host) {
     const PluginManifest& manifest = host.catalog().require(PluginKind::worksets, plugin);
     std::vector<GivenOption> given;
     for (const std::string& text : settings)
       given.push_back({text.substr(0, text.find('=')), text.substr(text.find('=') + 1)});
-    classifier_ = host.worksets(plugin, check_options(manifest.options, given, plugin));
-    for (const ProvidedRow& row : manifest.provides) types_.push_back(row.name);
+    station_ = {plugin, {}, host.worksets(plugin, check_options(manifest.options, given, plugin))};
+    for (const ProvidedRow& row : manifest.provides) station_.types.push_back(row.name);
   }
 
   void add(const fs::path& file, int faces, double scale, Tally& tally, bench::Picture& picture, int x, int y) {
-    std::ifstream stream(fs::path(file).replace_extension(".truth.json"));
-    const json truth = json::parse(stream);
+    const Truth truth = read_truth(truth_beside(file));
     TriangleSoup soup = read_soup(file);
     for (Vec3& p : soup.positions) p *= scale;
-    const std::vector<Feature> features = read_marks(truth, soup);
+    const std::vector<Feature> features = read_marks(truth, soup.positions);
     Mesh mesh(std::move(soup), file.string());
     if (faces > 0)
       if (auto made = normalised(mesh.view(), faces)) mesh = std::move(*made);
 
     const auto start = std::chrono::steady_clock::now();
-    const WorkingSets sets = classify_mesh(mesh.view(), *classifier_, plugin_, types_, context_);
+    const WorkingSets sets = classify_mesh(mesh.view(), station_, context_);
     tally.times_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     tally.sets.push_back(sets.size());
@@ -209,7 +206,7 @@ class Measurement {
       ++tally.features;
       tally.covered += good;
     }
-    painter.draw(picture, view_of(truth["frame"]), x, y, picture_size);
+    painter.draw(picture, view_of(json::parse(truth.document)["frame"]), x, y, picture_size);
   }
 
   static constexpr int picture_size = 150;
@@ -222,9 +219,7 @@ class Measurement {
   }
 
   PluginHost& host_;
-  std::string plugin_;
-  std::shared_ptr<const WorkingSetClassifier> classifier_;
-  std::vector<std::string> types_;
+  WorkingSetStation station_;
   RunContext context_;
 };
 
@@ -264,10 +259,21 @@ int main(int argc, char** argv) {
 
   PluginHost host{PluginCatalog({{fs::path(TOPOSCOPE_BUILD_DIR) / "plugins", true}})};
   Measurement measurement(host, plugin, settings);
-  fmt::print("| class | faces | features | covered | | sets a mesh: median | most | ms a mesh: median |\n");
-  fmt::print("|---|---|---|---|---|---|---|---|\n");
+  const std::vector<Column> columns = {"class",    "faces",
+                                       "features", "covered",
+                                       "",         "sets a mesh: median",
+                                       "most",     {"ms a mesh: median", "ms", "ms", "{:.0f}"}};
+  fmt::print("{}", markdown_header(columns));
+  const auto print = [&](const std::string& name, int faces, std::pair<int, int> covered,
+                         const std::vector<Cell>& sets) {
+    std::vector<Cell> row = {name, faces == 0 ? "as given" : std::to_string(faces), std::to_string(covered.second),
+                             std::to_string(covered.first),
+                             fmt::format("{:.1f} %", 100.0 * covered.first / covered.second)};
+    row.insert(row.end(), sets.begin(), sets.end());
+    fmt::print("{}", markdown_row(columns, row));
+  };
   constexpr int size = Measurement::picture_size;
-  std::map<int, std::pair<int, int>> all;  // features and those covered, by resolution
+  std::map<int, std::pair<int, int>> all;  // features covered, and all of them, by resolution
   for (const std::string& name : classes) {
     const std::vector<fs::path> files = meshes(data / name);
     bench::Picture picture(size * static_cast<int>(files.size()), size * static_cast<int>(resolutions.size()));
@@ -276,18 +282,14 @@ int main(int argc, char** argv) {
       Tally tally;
       for (std::size_t i = 0; i < files.size(); ++i)
         measurement.add(files[i], faces, scale, tally, picture, size * static_cast<int>(i), size * static_cast<int>(r));
-      fmt::print("| {} | {} | {} | {} | {:.1f} % | {} | {} | {:.0f} |\n", name,
-                 faces == 0 ? "as given" : std::to_string(faces), tally.features, tally.covered,
-                 100.0 * tally.covered / tally.features, median(tally.sets),
-                 *std::max_element(tally.sets.begin(), tally.sets.end()), median(tally.times_ms));
+      print(name, faces, {tally.covered, tally.features},
+            {median(tally.sets), *std::max_element(tally.sets.begin(), tally.sets.end()), median(tally.times_ms)});
       if (verbose) fmt::print("{}", tally.missed);
       std::fflush(stdout);
-      all[faces].first += tally.features;
-      all[faces].second += tally.covered;
+      all[faces].first += tally.covered;
+      all[faces].second += tally.features;
     }
     if (!pictures.empty()) picture.save(pictures / (name + ".png"));
   }
-  for (const int faces : resolutions)
-    fmt::print("| both | {} | {} | {} | {:.1f} % | | | |\n", faces == 0 ? "as given" : std::to_string(faces),
-               all[faces].first, all[faces].second, 100.0 * all[faces].second / all[faces].first);
+  for (const int faces : resolutions) print("both", faces, all[faces], {"", "", ""});
 }

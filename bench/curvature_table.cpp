@@ -8,12 +8,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <string>
 
 #include "base/run_context.h"
 #include "support/analytic_surfaces.h"
+#include "table/table.h"
 #include "toposcope/geometry/curvature.h"
 
 namespace {
@@ -22,7 +24,23 @@ using namespace toposcope;
 using test::AnalyticSurface;
 using test::Sampling;
 
-std::string errors(const AnalyticSurface& surface, const Curvature& estimate) {
+Column percent(const char* name) {
+  return {name, "number", "", "{:.2f}"};
+}
+
+const std::vector<Column> columns = {"surface",
+                                     "sampling",
+                                     "faces",
+                                     "noise",
+                                     percent("default: median %"),
+                                     percent("95th"),
+                                     percent("other, median"),
+                                     percent("dissertation: median %"),
+                                     percent("95th"),
+                                     percent("other, median")};
+
+/// Larger curvature: median and 95th percentile; the other one: median.
+std::array<double, 3> errors(const AnalyticSurface& surface, const Curvature& estimate) {
   std::vector<double> larger, smaller;
   for (std::size_t v = 0; v < surface.maximum.size(); ++v) {
     if (!surface.interior[v]) continue;
@@ -38,7 +56,7 @@ std::string errors(const AnalyticSurface& surface, const Curvature& estimate) {
   const auto at = [](const std::vector<double>& sorted, double part) {
     return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
   };
-  return fmt::format("{:.2f} | {:.2f} | {:.2f}", at(larger, 0.5), at(larger, 0.95), at(smaller, 0.5));
+  return {at(larger, 0.5), at(larger, 0.95), at(smaller, 0.5)};
 }
 
 void row(const std::string& name, const std::string& sampling, double noise, const AnalyticSurface& surface,
@@ -48,8 +66,9 @@ void row(const std::string& name, const std::string& sampling, double noise, con
   ShapeOperators operators = fit_shape_operators(view, context);
   diffuse(view, operators, diffusion_passes(view, deviation * view.box.diagonal(), 1), context);
   Curvature turning = turning_curvature(view, plane_fit_normals(view, context), 2, context);
-  fmt::print("| {} | {} | {} | {:.0f} % | {} | {} |\n", name, sampling, view.face_count(), 100 * noise,
-             errors(surface, principal_curvatures(operators)), errors(surface, turning));
+  const auto ours = errors(surface, principal_curvatures(operators)), theirs = errors(surface, turning);
+  fmt::print("{}", markdown_row(columns, {name, sampling, view.face_count(), fmt::format("{:.0f} %", 100 * noise),
+                                          ours[0], ours[1], ours[2], theirs[0], theirs[1], theirs[2]}));
   std::fflush(stdout);
 }
 
@@ -66,10 +85,7 @@ int main(int argc, char** argv) {
   }
   if (sizes.empty()) sizes = {5000, 20000, 200000};
   RunContext context;
-  fmt::print(
-      "| surface | sampling | faces | noise | default: median % | 95th | other, median | dissertation: median % | 95th "
-      "| other, median |\n");
-  fmt::print("|---|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print("{}", markdown_header(columns));
   for (const char* kind : {"sphere", "cylinder", "torus", "saddle"})
     for (const Index faces : sizes)
       for (const Sampling sampling : {Sampling::regular, Sampling::irregular})

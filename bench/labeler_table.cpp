@@ -12,9 +12,10 @@
 #include <optional>
 #include <regex>
 
-#include "problem_io.h"
+#include "formats/problem_io.h"
 #include "support/planted_problems.h"
 #include "support/plugins.h"
+#include "table/table.h"
 
 namespace {
 
@@ -48,6 +49,17 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+const std::vector<Column> columns = {"costs",
+                                     "features x candidates",
+                                     "proven",
+                                     {"median ms", "ms", "ms", "{:.1f}"},
+                                     {"worst ms", "ms", "ms", "{:.1f}"},
+                                     {"worst gap", "number", "nats", "{:.3g}"},
+                                     "toulbar2 proven",
+                                     {"median ms", "ms", "ms", "{:.0f}"},
+                                     {"worst ms", "ms", "ms", "{:.0f}"},
+                                     "optima that differ"};
+
 void row(const test::PlantedKind& kind, int seeds, double limit_s) {
   std::vector<double> ours, theirs, gaps;
   int proven = 0, rival_proven = 0, differ = 0;
@@ -64,10 +76,12 @@ void row(const test::PlantedKind& kind, int seeds, double limit_s) {
     rival_proven += rival.seconds.has_value();
     differ += outcome.optimal && rival.cost && std::abs(*rival.cost - outcome.labelings[0].cost) > 1e-3;
   }
-  fmt::print("| {} | {} x {} | {} of {} | {:.1f} | {:.1f} | {:.3g} | {} of {} | {:.0f} | {:.0f} | {} |\n",
-             kind.structured ? "planted" : "random", kind.features, kind.candidates, proven, seeds, 1e3 * median(ours),
-             1e3 * *std::max_element(ours.begin(), ours.end()), *std::max_element(gaps.begin(), gaps.end()),
-             rival_proven, seeds, 1e3 * median(theirs), 1e3 * *std::max_element(theirs.begin(), theirs.end()), differ);
+  const auto worst = [](const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); };
+  fmt::print("{}", markdown_row(columns, {kind.structured ? "planted" : "random",
+                                          fmt::format("{} x {}", kind.features, kind.candidates),
+                                          fmt::format("{} of {}", proven, seeds), 1e3 * median(ours), 1e3 * worst(ours),
+                                          worst(gaps), fmt::format("{} of {}", rival_proven, seeds),
+                                          1e3 * median(theirs), 1e3 * worst(theirs), std::to_string(differ)}));
   std::fflush(stdout);
 }
 
@@ -80,9 +94,7 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", seeds, "problems of each kind")->capture_default_str();
   app.add_option("--limit", limit_s, "seconds for each problem")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  fmt::print(
-      "| costs | features x candidates | proven | median ms | worst ms | worst gap | toulbar2 proven | median ms | "
-      "worst ms | optima that differ |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print("{}", markdown_header(columns));
   for (const bool structured : {true, false})
     for (const auto& [features, candidates] : {std::pair<Index, Index>{8, 20}, {12, 50}, {20, 60}, {40, 60}})
       row({.features = features, .candidates = candidates, .structured = structured}, seeds, limit_s);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the filter normalise makes of meshes, as a Markdown table: normalise_table [--faces N,N,...] [--set
-// OPTION=VALUE]
-// [--write FOLDER] MESH...
+// What the filter normalise makes of meshes, as a Markdown table.
+//
+//   normalise_table [--faces N,N,...] [--set OPTION=VALUE] [--write FOLDER] MESH...
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +17,7 @@
 #include "base/run_context.h"
 #include "io/mesh_io.h"
 #include "plugin/plugin_host.h"
+#include "table/table.h"
 #include "toposcope/geometry/closest_face.h"
 
 namespace {
@@ -23,7 +26,8 @@ using namespace toposcope;
 namespace fs = std::filesystem;
 
 struct Caught final : MeshSink {
-  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index>) override {
+  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index>,
+           std::span<const Index>) override {
     soup.positions.assign(p.begin(), p.end());
     soup.triangles.assign(t.begin(), t.end());
     soup.face_origin.resize(t.size());
@@ -109,14 +113,33 @@ Shape describe(const MeshView& mesh) {
   return shape;
 }
 
+Column real(const char* name, const char* format) {
+  return {name, "number", "", format};
+}
+
+const std::vector<Column> columns = {"mesh",
+                                     "target",
+                                     "faces",
+                                     real("CV of edges", "{:.3f}"),
+                                     real("mean edge, % of diagonal", "{:.3f}"),
+                                     real("min / mean", "{:.2f}"),
+                                     real("max / mean", "{:.2f}"),
+                                     "Hausdorff to, from input, %",
+                                     "genus",
+                                     "components",
+                                     "boundaries",
+                                     "manifold",
+                                     "ms"};
+
+/// The row of a mesh. \param diagonal  of the input
 void print(const std::string& name, const std::string& target, const MeshView& mesh, double diagonal,
            const std::string& distances, const std::string& time) {
   const Shape s = describe(mesh);
   const int genus = s.components - (s.euler + s.boundaries) / 2;
-  std::printf("| %s | %s | %u | %.3f | %.3f | %.2f | %.2f | %s | %d | %d | %d | %s | %s |\n", name.c_str(),
-              target.c_str(), mesh.face_count(), s.variation, 100 * s.mean / diagonal, s.least / s.mean,
-              s.greatest / s.mean, distances.c_str(), genus, s.components, s.boundaries, s.manifold ? "yes" : "no",
-              time.c_str());
+  fmt::print("{}", markdown_row(columns, {name, target, mesh.face_count(), s.variation, 100 * s.mean / diagonal,
+                                          s.least / s.mean, s.greatest / s.mean, distances, std::to_string(genus),
+                                          std::to_string(s.components), std::to_string(s.boundaries),
+                                          s.manifold ? "yes" : "no", time}));
   std::fflush(stdout);
 }
 
@@ -149,10 +172,7 @@ int main(int argc, char** argv) {
        .time_limit_s = {},
        .log = [](LogLevel, std::string_view line) { std::fprintf(stderr, "%s\n", std::string(line).c_str()); },
        .progress = {}});
-  std::puts(
-      "| mesh | target | faces | CV of edges | mean edge, % of diagonal | min / mean | max / mean | "
-      "Hausdorff to, from input, % | genus | components | boundaries | manifold | ms |");
-  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+  fmt::print("{}", markdown_header(columns));
   for (const fs::path& file : files) try {
       const Mesh input = read_mesh(file);
       const std::string name = file.stem().string();
@@ -172,10 +192,9 @@ int main(int argc, char** argv) {
         const Mesh output(std::move(caught.soup), name);
         const ClosestFace to_output(output.view().positions, output.view().triangles);
         const double step = 0.1 * output.view().mean_edge;
-        char distances[64];
-        std::snprintf(distances, sizeof distances, "%.3f, %.3f",
-                      100 * one_sided(output.view(), to_input, step, context) / diagonal,
-                      100 * one_sided(input.view(), to_output, step, context) / diagonal);
+        const std::string distances =
+            fmt::format("{:.3f}, {:.3f}", 100 * one_sided(output.view(), to_input, step, context) / diagonal,
+                        100 * one_sided(input.view(), to_output, step, context) / diagonal);
         print(name, std::to_string(faces), output.view(), diagonal, distances, std::to_string(int(taken.count())));
         if (!folder.empty())
           write_mesh(folder / (name + "-" + std::to_string(faces) + ".ply"), output.view().positions,

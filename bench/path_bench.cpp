@@ -101,13 +101,12 @@ void working_sets(benchmark::State& state) {
   const MeshView& mesh = torus(static_cast<Index>(state.range(0)));
   PluginHost host{PluginCatalog({{fs::path(TOPOSCOPE_BUILD_DIR) / "plugins", true}})};
   const PluginManifest& manifest = host.catalog().require(PluginKind::worksets, "curvature-tree");
-  const auto classifier = host.worksets(manifest.id, check_options(manifest.options, {}, manifest.id));
-  std::vector<std::string> types;
-  for (const ProvidedRow& row : manifest.provides) types.push_back(row.name);
+  WorkingSetStation station{
+      manifest.id, {}, host.worksets(manifest.id, check_options(manifest.options, {}, manifest.id))};
+  for (const ProvidedRow& row : manifest.provides) station.types.push_back(row.name);
   RunContext context;
   const PeakMemory memory;
-  for (auto _ : state)
-    benchmark::DoNotOptimize(classify_mesh(mesh, *classifier, manifest.id, types, context).vertices.size());
+  for (auto _ : state) benchmark::DoNotOptimize(classify_mesh(mesh, station, context).vertices.size());
   state.counters["peak_bytes_a_vertex"] = static_cast<double>(memory.bytes()) / mesh.vertex_count();
 }
 

@@ -27,10 +27,7 @@ install(DIRECTORY ${source_dir}/core/include/toposcope DESTINATION include COMPO
 install(DIRECTORY ${source_dir}/schemas ${source_dir}/templates DESTINATION share/toposcope COMPONENT sdk)
 # The author's pages, in folders as in the tree, so that their links hold.
 set(doc_dir share/doc/libtoposcope-dev)
-install(FILES ${source_dir}/docs/guide/plugins.md ${source_dir}/docs/guide/abi.md ${source_dir}/docs/guide/models.md
-  DESTINATION ${doc_dir}/docs/guide COMPONENT sdk)
-install(FILES ${source_dir}/docs/theory/probabilities.md DESTINATION ${doc_dir}/docs/theory COMPONENT sdk)
-install(DIRECTORY ${source_dir}/docs/guide/tutorials DESTINATION ${doc_dir}/docs/guide COMPONENT sdk)
+install(DIRECTORY ${source_dir}/docs/guide ${source_dir}/docs/theory DESTINATION ${doc_dir}/docs COMPONENT sdk)
 install(DIRECTORY ${source_dir}/examples DESTINATION ${doc_dir} COMPONENT sdk)
 install(FILES ${source_dir}/MIGRATION.md DESTINATION ${doc_dir} COMPONENT sdk)
 

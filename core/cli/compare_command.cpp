@@ -83,7 +83,7 @@ class Gallery {
     cards_.push_back({thumbnail_of(views.front().scene, context), ""});
     // Of one mesh, that on which labelers differ most: side by side on others they would look the same.
     std::set<std::vector<std::pair<std::string, Index>>> labelings;
-    for (const Entry& entry : comparison.entries) labelings.insert(entry.labelling);
+    for (const Entry& entry : comparison.entries) labelings.insert(entry.labeling);
     if (labelings.size() <= most_labelings_) return;
     most_labelings_ = labelings.size();
     views_ = std::move(views);
@@ -110,13 +110,14 @@ int compare(const CompareOptions& options) {
   Gallery gallery;
   const bool text = !options.json && !options.csv && !options.markdown;
   const int code = for_each_mesh(options.meshes, session, [&](const fs::path& path) {
-    const Mesh mesh = session.read(path).mesh;
+    const RepairedMesh input = session.read(path);
     const fs::path truth_file = truth_beside(path);
     std::optional<Truth> truth;
     if (!truth_file.empty()) truth = read_truth(truth_file);
-    Analysis analysis = construct(mesh, model, stations, session.context());
+    Analysis analysis = construct(input.mesh, model, stations, session.context());
     std::vector<LabelerView> views;
-    const auto look = [&](const Contender& contender, const Analysis& labelled, const Result& result) {
+    const auto look = [&](const Contender& contender, const Analysis& labelled, Result result) {
+      result.repair = input.repair;
       views.push_back({contender.name, make_scene(labelled, model, result, truth ? &*truth : nullptr, found_alone)});
     };
     comparisons.push_back(toposcope::compare(analysis, model, stations, path.string(), contenders, request,

@@ -10,11 +10,10 @@
 #include "base/assignment.h"
 #include "base/errors.h"
 #include "commands.h"
+#include "formats/problem_io.h"
 #include "options.h"
 #include "output.h"
-#include "pipeline/labeling_problem.h"
-#include "plugin/guard.h"
-#include "problem_io.h"
+#include "pipeline/solve.h"
 #include "session.h"
 #include "toposcope/labeling/tools.h"
 
@@ -61,6 +60,20 @@ ordered_json values_of(const LabelingProblem& problem, const Labeling& labeling)
   return values;
 }
 
+const char* name_of(Exactness exactness) {
+  constexpr const char* names[] = {"none", "exact", "bound", "approximate"};
+  return names[static_cast<std::size_t>(exactness)];
+}
+
+ordered_json error_of(Exactness exactness, double error) {
+  return exactness == Exactness::bound ? ordered_json(error) : ordered_json();
+}
+
+/// "exact", "approximate", "off by at most 0.001 nats"
+std::string in_words(Exactness exactness, double error, const char* unit) {
+  return exactness == Exactness::bound ? fmt::format("off by at most {:.3g}{}", error, unit) : name_of(exactness);
+}
+
 // What is no finite number is written as null.
 std::string as_json(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& labeler,
                     double time_ms) {
@@ -75,7 +88,11 @@ std::string as_json(const LabelingProblem& problem, const LabelingOutcome& outco
                                        : outcome.optimal ? ordered_json(false)
                                                          : ordered_json()},
                        {"posteriors", ordered_json()},
+                       {"posterior_exactness", name_of(outcome.posterior_exactness)},
+                       {"posterior_error", error_of(outcome.posterior_exactness, outcome.posterior_error)},
                        {"log_evidence", outcome.log_evidence},
+                       {"evidence_exactness", name_of(outcome.evidence_exactness)},
+                       {"evidence_error", error_of(outcome.evidence_exactness, outcome.evidence_error)},
                        {"nodes", outcome.nodes},
                        {"time_ms", time_ms},
                        {"guarantee", outcome.guarantee}};
@@ -87,11 +104,11 @@ std::string as_json(const LabelingProblem& problem, const LabelingOutcome& outco
         {{"labeling", values_of(problem, outcome.labelings[k])}, {"cost", outcome.labelings[k].cost}});
   root["facts"] = ordered_json::object();
   for (const LabelingFact& fact : outcome.facts) root["facts"][fact.name] = fact.value;
-  root["fallen"] = ordered_json::array();
-  for (const FallenValue& fallen : outcome.fallen)
-    root["fallen"].push_back({{"variable", problem.variables[fallen.variable].name},
-                              {"value", value_name(problem.variables[fallen.variable], fallen.value)},
-                              {"reason", fallen.reason}});
+  root["removed"] = ordered_json::array();
+  for (const RemovedValue& removed : outcome.removed)
+    root["removed"].push_back({{"variable", problem.variables[removed.variable].name},
+                               {"value", value_name(problem.variables[removed.variable], removed.value)},
+                               {"reason", removed.reason}});
   return root.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -116,7 +133,11 @@ std::string as_text(const LabelingProblem& problem, const LabelingOutcome& outco
   if (found && !outcome.optimal && std::isfinite(outcome.lower_bound))
     text += fmt::format("lower bound  {:.10g}, gap {:.4g}\n", outcome.lower_bound,
                         outcome.labelings[0].cost - outcome.lower_bound);
-  if (!std::isnan(outcome.log_evidence)) text += fmt::format("log evidence {:.10g}\n", outcome.log_evidence);
+  if (!std::isnan(outcome.log_evidence))
+    text += fmt::format("log evidence {:.10g} ({})\n", outcome.log_evidence,
+                        in_words(outcome.evidence_exactness, outcome.evidence_error, " nats"));
+  if (!outcome.posteriors.empty())
+    text += fmt::format("posteriors   {}\n", in_words(outcome.posterior_exactness, outcome.posterior_error, ""));
   for (std::size_t k = 1; k < outcome.labelings.size(); ++k) {
     text += fmt::format("next best    {:.10g}:", outcome.labelings[k].cost);
     for (Index v = 0; v < problem.variables.size(); ++v)
@@ -124,9 +145,9 @@ std::string as_text(const LabelingProblem& problem, const LabelingOutcome& outco
     text += "\n";
   }
   for (const LabelingFact& fact : outcome.facts) text += fmt::format("{}: {}\n", fact.name, fact.value);
-  for (const FallenValue& fallen : outcome.fallen)
-    text += fmt::format("fell: {} = {}: {}\n", problem.variables[fallen.variable].name,
-                        value_name(problem.variables[fallen.variable], fallen.value), fallen.reason);
+  for (const RemovedValue& removed : outcome.removed)
+    text += fmt::format("removed: {} = {}: {}\n", problem.variables[removed.variable].name,
+                        value_name(problem.variables[removed.variable], removed.value), removed.reason);
   return text + fmt::format("{}: {}; {} nodes, {:.1f} ms\n", labeler, outcome.guarantee, outcome.nodes, time_ms);
 }
 
@@ -150,26 +171,19 @@ int label(const LabelOptions& options) {
     for (const std::string& note : write_problem(options.save, file))
       session.context().log(LogLevel::info, options.save.string() + ": " + note);
   const std::string id = options.labeler.empty() ? "least-error" : options.labeler;
-  const auto solve = [&](const Labeler& labeler, const std::string& plugin) {
-    LabelingOutcome outcome = guard(plugin, [&] {
-      return labeler.solve(problem,
-                           {.k_best = options.k_best, .time_limit_s = options.time_limit_s, .within = options.within},
-                           session.context());
-    });
-    check_outcome(problem, outcome, plugin);
-    return outcome;
-  };
-  const auto labeler = make_labeler(options, id, session.host());
+  const LabelingRequest request{
+      .k_best = options.k_best, .time_limit_s = options.time_limit_s, .within = options.within};
+  const LabelerStation labeler{id, make_labeler(options, id, session.host())};
   const auto start = std::chrono::steady_clock::now();
-  LabelingOutcome outcome = solve(*labeler, id);
+  LabelingOutcome outcome = solve(labeler, problem, request, session.context());
   const double time_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   cut_at_top(outcome, file.top);
   if (options.marginals && outcome.posteriors.empty()) {
     const PluginManifest& plugin = session.host().catalog().require(PluginKind::labelers, "posterior", "--marginals");
-    const LabelingOutcome sums =
-        solve(*session.host().labeler(plugin.id, check_options(plugin.options, {}, plugin.id)), plugin.id);
-    outcome.posteriors = sums.posteriors;
-    outcome.log_evidence = sums.log_evidence;
+    const LabelerStation summing{plugin.id,
+                                 session.host().labeler(plugin.id, check_options(plugin.options, {}, plugin.id))};
+    LabelingOutcome sums = solve(summing, problem, request, session.context());
+    take_sums(sums, outcome);
     outcome.facts.push_back({"probabilities", sums.guarantee});
   }
   if (file.maximize) outcome.facts.push_back({"maximised", "costs are minus the values, which the file maximises"});

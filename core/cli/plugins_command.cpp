@@ -28,6 +28,8 @@ struct PluginsOptions {
 constexpr PluginKind kinds[] = {PluginKind::filters, PluginKind::worksets, PluginKind::shapes, PluginKind::relations,
                                 PluginKind::labelers};
 
+constexpr const char* dimensions[] = {"points", "lines", "surfaces", "volumes"};
+
 void print_table(const char* title, const std::vector<OptionRow>& rows) {
   if (rows.empty()) return;
   say("\n{}:\n", title);
@@ -103,6 +105,7 @@ int plugins_describe(const PluginsOptions& options) {
   say("{} {} ({})\n{}\n", plugin.id, plugin.version, to_string(plugin.kind), plugin.summary);
   if (!plugin.citation.empty()) say("source: {}\n", plugin.citation);
   if (!plugin.unit.empty()) say("residual in: {}\n", plugin.unit);
+  if (plugin.dimension >= 0) say("fits: {}\n", dimensions[static_cast<std::size_t>(plugin.dimension)]);
   if (!plugin.programs.empty()) say("runs: {}{}\n", fmt::join(plugin.programs, ", "), availability(plugin));
   if (!plugin.provides.empty()) say("\nprovides:\n");
   for (const ProvidedRow& row : plugin.provides) say("  {:<14}{}\n", row.name, row.meaning);

@@ -146,12 +146,11 @@ class Preparer {
   RepairedMesh filtered(const Mesh& mesh, Preparation& done) const {
     const Box& box = mesh.view().box;
     const double diagonal = std::hypot(box.a(), box.b(), box.c());
-    std::vector<Stations::Filter> filters;
+    std::vector<FilterStation> filters;
     for (const Step& each : steps_) {
-      const PluginManifest& manifest = manifest_of(each, session_.host().catalog());
-      const std::vector<OptionValue> values = checked_options(for_mesh(each, options_, diagonal), manifest);
-      filters.push_back({each.id, session_.host().filter(each.id, values)});
-      done.filters.push_back(use_of(manifest, values));
+      const Step step = for_mesh(each, options_, diagonal);
+      filters.push_back(make_filter(session_.host(), step.id, step.options, step.flag));
+      done.filters.push_back(filters.back().use);
     }
     const PreparedMesh after = apply_filters(mesh, filters, session_.context());
     const MeshView& view = after.view();

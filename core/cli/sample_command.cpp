@@ -127,7 +127,7 @@ int sample(const SampleOptions& options) {
   const fs::path truth = fs::path(options.out).replace_extension(".truth.json");
   write_mesh(options.out, made.mesh.positions, made.mesh.triangles);
   write_file(truth, truth_json(made, options.out.filename().string()));
-  say("{}: {} with {} faces\n{}: its truth\n", options.out.string(), made.kind, made.mesh.triangles.size(),
+  say("{}: {} with {} faces\n{}: its truth\n", options.out.string(), made.truth.class_name, made.mesh.triangles.size(),
       truth.string());
   return 0;
 }

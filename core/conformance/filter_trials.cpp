@@ -13,20 +13,22 @@ namespace toposcope {
 namespace {
 
 struct RawMesh final : MeshSink, MeshFilter {
-  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index> o) override {
+  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index> faces,
+           std::span<const Index> vertices) override {
     given = true;
     positions.assign(p.begin(), p.end());
     triangles.assign(t.begin(), t.end());
-    origin.assign(o.begin(), o.end());
+    face_origin.assign(faces.begin(), faces.end());
+    vertex_origin.assign(vertices.begin(), vertices.end());
   }
   /// Gives it to the kernel's own check.
   void apply(const MeshView&, Context&, MeshSink& sink) const override {
-    if (given) sink.set(positions, triangles, origin);
+    if (given) sink.set(positions, triangles, face_origin, vertex_origin);
   }
   bool given = false;
   std::vector<Vec3> positions;
   std::vector<Triangle> triangles;
-  std::vector<Index> origin;
+  std::vector<Index> face_origin, vertex_origin;
 };
 
 /// What of a mesh rotation, translation and order of the vertices leave alone.
@@ -63,7 +65,8 @@ class FilterTrial final : public MeshTrial {
     append_bytes(answer.bytes, raw->given);
     for (const Vec3& p : raw->positions) append_bytes(answer.bytes, std::array{p.x(), p.y(), p.z()});
     append_bytes(answer.bytes, raw->triangles);
-    append_bytes(answer.bytes, raw->origin);
+    append_bytes(answer.bytes, raw->face_origin);
+    append_bytes(answer.bytes, raw->vertex_origin);
     answer.flaw = flaw(*raw);
     answer.value = std::move(raw);
     return answer;
@@ -89,7 +92,7 @@ class FilterTrial final : public MeshTrial {
 
  private:
   std::string flaw(const RawMesh& raw) const {
-    const Stations::Filter station{"", {&raw, [](const MeshFilter*) {}}};
+    const FilterStation station{"", {&raw, [](const MeshFilter*) {}}};
     RunContext quiet({.threads = 1});
     try {
       Mesh input(soup(), name);

@@ -25,20 +25,13 @@ void add_quad(TriangleSoup& soup, Index a, Index b, Index c, Index d, bool flip)
 
 }  // namespace
 
-std::uint64_t Random::next() {
-  std::uint64_t z = state_ += 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-
 double Random::uniform(double low, double high) {
-  return low + (high - low) * (static_cast<double>(next() >> 11) + 0.5) * 0x1p-53;
+  return low + (high - low) * uniform_open(next());
 }
 
 double Random::normal() {
-  const double u = uniform(), v = uniform();
-  return std::sqrt(-2 * std::log(u)) * std::cos(2 * pi * v);
+  const double u = uniform();
+  return normal_pair(u, uniform())[0];
 }
 
 Eigen::Matrix3d random_rotation(std::uint64_t seed) {

@@ -9,15 +9,16 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "toposcope/system/random.h"
 #include "trial.h"
 
 namespace toposcope {
 
-/// Seeded numbers, the same on every platform (splitmix64).
+/// Seeded numbers, the same on every platform.
 class Random {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15ULL) {}
-  std::uint64_t next();
+  explicit Random(std::uint64_t seed) : stream_(seed * SplitMix64::step) {}
+  std::uint64_t next() { return stream_(); }
   double uniform(double low = 0, double high = 1);
   double normal();
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(next() % n); }
@@ -27,7 +28,7 @@ class Random {
   }
 
  private:
-  std::uint64_t state_;
+  SplitMix64 stream_;
 };
 
 Eigen::Matrix3d random_rotation(std::uint64_t seed);

@@ -7,7 +7,7 @@
 
 #include "base/errors.h"
 #include "inputs.h"
-#include "pipeline/labeling_problem.h"
+#include "pipeline/solve.h"
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope {
@@ -123,6 +123,39 @@ LabelingProblem shuffled(const LabelingProblem& problem, std::uint64_t seed) {
   return result;
 }
 
+/// Sums over all labellings, one by one.
+struct Sums {
+  double log_evidence;
+  std::vector<std::vector<double>> posteriors;
+};
+Sums sums_of(const LabelingProblem& problem) {
+  std::vector<Labeling> all;
+  Labeling now{std::vector<Index>(problem.variables.size(), 0), 0};
+  double least = forbidden;
+  for (bool more = true; more;) {
+    now.cost = cost_of(problem, now.values);
+    least = std::min(least, now.cost);
+    if (now.cost < forbidden) all.push_back(now);
+    more = false;
+    for (std::size_t v = now.values.size(); v-- > 0 && !more;) {
+      more = ++now.values[v] < problem.variables[v].domain();
+      if (!more) now.values[v] = 0;
+    }
+  }
+  Sums sums;
+  for (const LabelingVariable& each : problem.variables) sums.posteriors.emplace_back(each.domain(), 0.0);
+  double total = 0;
+  for (const Labeling& labeling : all) {
+    const double weight = std::exp(least - labeling.cost);
+    total += weight;
+    for (Index v = 0; v < labeling.values.size(); ++v) sums.posteriors[v][labeling.values[v]] += weight;
+  }
+  for (auto& posterior : sums.posteriors)
+    for (double& p : posterior) p /= total;
+  sums.log_evidence = all.empty() ? -forbidden : std::log(total) - least;
+  return sums;
+}
+
 class LabelerTrial final : public Trial {
  public:
   LabelerTrial(std::string called, LabelingProblem problem, double time_limit_s = enough_s)
@@ -173,7 +206,38 @@ class LabelerTrial final : public Trial {
       if (const double cost = cost_of(problem_, labeling.values); cost != labeling.cost)
         return fmt::format("gave a labelling the cost {:.17g}; cost_of sums it to {:.17g}", labeling.cost, cost);
     if (outcome.guarantee.empty()) return "does not say in 'guarantee' what it promises of its outcome";
+    return false_promise(outcome);
+  }
+
+  /// Of small problems the sums are known.
+  std::string false_promise(const LabelingOutcome& outcome) const {
+    const auto most = [](Exactness exactness, double error) {
+      return exactness == Exactness::exact ? 1e-6 : exactness == Exactness::bound ? error + 1e-6 : forbidden;
+    };
+    const double evidence_off = most(outcome.evidence_exactness, outcome.evidence_error);
+    const double posteriors_off = most(outcome.posterior_exactness, outcome.posterior_error);
+    if (!(std::min(evidence_off, posteriors_off) < forbidden) || labelings() > 20'000) return "";
+    const Sums sums = sums_of(problem_);
+    const auto differ = [](double a, double b, double tolerance) { return a != b && !(std::abs(a - b) <= tolerance); };
+    if (differ(outcome.log_evidence, sums.log_evidence, evidence_off))
+      return fmt::format("says that its evidence is {} {:.9g}; all labellings together have {:.9g}",
+                         outcome.evidence_exactness == Exactness::exact ? "exact:" : "within its bound of",
+                         outcome.log_evidence, sums.log_evidence);
+    for (Index v = 0; v < outcome.posteriors.size(); ++v)
+      for (Index value = 0; value < outcome.posteriors[v].size(); ++value)
+        if (differ(outcome.posteriors[v][value], sums.posteriors[v][value], posteriors_off))
+          return fmt::format(
+              "gives value {} of '{}' the probability {:.9g}, {}; over all labellings it is {:.9g}", value,
+              problem_.variables[v].name, outcome.posteriors[v][value],
+              outcome.posterior_exactness == Exactness::exact ? "and says that it is exact" : "beyond its own bound",
+              sums.posteriors[v][value]);
     return "";
+  }
+
+  double labelings() const {
+    double count = 1;
+    for (const LabelingVariable& each : problem_.variables) count *= each.domain();
+    return count;
   }
 
   LabelingProblem problem_;

@@ -30,7 +30,7 @@ class ShapeTrial final : public Trial {
         points_(std::move(points)),
         plugin_(plugin),
         areas_(points_.points.size(), 0),
-        bends_(points_.points.size(), points_.mean_edge) {
+        curvature_(points_.points.size(), points_.mean_edge) {
     const auto box_of = [](std::span<const Vec3> set) {
       for (const Vec3& p : set)
         if (!p.allFinite()) return Box{};
@@ -49,7 +49,7 @@ class ShapeTrial final : public Trial {
     Box object_box = box_;
     for (double& side : object_box.sides) side *= 1.5;
     fitted->shape =
-        fitter.fit({points_.points, areas_, points_.offsets, boxes_, box_, object_box, points_.mean_edge, bends_},
+        fitter.fit({points_.points, areas_, points_.offsets, boxes_, box_, object_box, points_.mean_edge, curvature_},
                    arguments, context);
     if (fitted->shape.summary.usable())
       for (std::size_t i = 0; i < points_.points.size(); i += 1 + points_.points.size() / 16)
@@ -163,7 +163,7 @@ class ShapeTrial final : public Trial {
 
   PointSets points_;
   const PluginManifest& plugin_;
-  std::vector<double> areas_, bends_;
+  std::vector<double> areas_, curvature_;
   std::vector<Box> boxes_;
   Box box_;
 };

@@ -39,7 +39,7 @@ class WorksetTrial final : public MeshTrial {
     Answer answer;
     RunContext quiet({.threads = 1});
     try {
-      classify_mesh(view(), *raw, "", types_, quiet);
+      classify_mesh(view(), {"", types_, raw}, quiet);
     } catch (const PluginError& error) {
       answer.flaw = std::string(error.what()).substr(std::string("plugin '': ").size());
     }

@@ -179,7 +179,9 @@ std::optional<RevolutionAccount> account_for(const RevolutionKind& kind, const R
 
 }  // namespace revolution
 
-FittedShape fit_revolution(const RevolutionKind& kind, const FitInput& input, double scale) {
+FittedShape RevolutionFitter::fit(const FitInput& input, const Options& /*arguments*/, Context& /*context*/) const {
+  const RevolutionKind& kind = *kind_;
+  const double scale = scale_ * input.mean_edge;
   FittedShape shape;
   shape.summary.termination = Termination::degenerate;
   const std::string none = std::string(": no ") + kind.name() + " is determined";
@@ -208,6 +210,14 @@ FittedShape fit_revolution(const RevolutionKind& kind, const FitInput& input, do
     shape.summary.message = reason;
   }
   return shape;
+}
+
+Interval RevolutionFitter::bounds(std::string_view measure, std::span<const Box> sets,
+                                  const Options& /*arguments*/) const {
+  if (measure == "coverage") return {0, 1};
+  if (measure == "area") return {0, std::numeric_limits<double>::infinity()};
+  const double diameter = enclosing_diameter(sets) * (1 + 1e-9);  // no two points are farther apart
+  return {0, measure == "length" ? diameter : flat_diagonals * diameter};
 }
 
 void OutlinePath::arc(const Vec3& center, const Vec3& x, const Vec3& y, double from, double to) {

@@ -11,6 +11,7 @@
 
 #include "revolution.h"
 #include "toposcope/geometry/representatives.h"
+#include "toposcope/system/random.h"
 
 namespace toposcope::revolution {
 namespace {
@@ -130,14 +131,10 @@ class Search {
     const std::vector<OrientedPoint> oriented = local_normals(few_, all_, neighbours);
     const std::size_t wanted = kind_.start_points(), n = oriented.size();
     if (n >= wanted) add(kind_.through(oriented));
-    std::uint64_t state = 0x9e3779b97f4a7c15ULL;
-    const auto draw = [&] {  // linear congruential: the same samples on every machine
-      state = state * 6364136223846793005ULL + 1442695040888963407ULL;
-      return static_cast<std::size_t>(state >> 33) % n;
-    };
+    LinearCongruential random;
     std::vector<OrientedPoint> sample(wanted);
     for (int k = 0; k < random_starts && n >= wanted; ++k) {
-      for (OrientedPoint& point : sample) point = oriented[draw()];
+      for (OrientedPoint& point : sample) point = oriented[random.below(n)];
       add(kind_.through(sample));
     }
     const std::size_t count = std::min(refined_starts, starts.size());

@@ -4,7 +4,8 @@
 #include <algorithm>
 
 #include "hitting_set.h"
-#include "toposcope/labeling/crisp_search.h"
+#include "tree_search.h"
+#include "words.h"
 
 namespace toposcope {
 namespace {
@@ -81,17 +82,17 @@ class Finder {
       else
         part_.exclusions[exclusion_index(n, items_[k].first, items_[k].second)] = true;
     }
-    const CrispNetwork network(problem_, deadline_, part_);
+    const CompiledNetwork network(problem_, deadline_, part_);
     FirstFound first(problem_, values_);
-    CrispSearch search(network, {}, first, deadline_);
-    const CrispSearch::End end = search.run();
-    if (end == CrispSearch::End::out_of_time) return Answer::stopped;
-    if (end == CrispSearch::End::ended_by_visitor) return Answer::met;
-    if (core != nullptr) *core = used(items, network, search.domains());
+    TreeSearch search(network, {}, first, deadline_);
+    const TreeSearch::End end = search.run();
+    if (end == TreeSearch::End::out_of_time) return Answer::stopped;
+    if (end == TreeSearch::End::ended_by_visitor) return Answer::met;
+    if (core != nullptr) *core = used(items, network, search.propagation());
     return Answer::conflict;
   }
 
-  Items used(const Items& items, const CrispNetwork& network, const CrispDomains& domains) const {
+  Items used(const Items& items, const CompiledNetwork& network, const Propagation& domains) const {
     const std::size_t n = problem_.variables.size();
     std::vector<bool> constraints(problem_.constraints.size(), false), exclusions(n * (n - 1) / 2, false);
     for (Index c = 0; c < problem_.constraints.size(); ++c) constraints[c] = problem_.constraints[c].scope.size() == 1;
@@ -195,10 +196,7 @@ std::string in_words(const LabelingProblem& problem, const ConflictSet& set) {
   for (const auto& [first, second] : set.exclusions)
     names.push_back("the exclusion of '" + problem.variables[first].name + "' and '" + problem.variables[second].name +
                     "'");
-  std::string text;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    text += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
-  return names.empty() ? "none is needed: a domain has no value of finite cost" : text;
+  return names.empty() ? "none is needed: a domain has no value of finite cost" : list_of(names);
 }
 
 void add_conflict_fact(const LabelingProblem& problem, const ConflictQuestion& question, const LabelingRequest& request,

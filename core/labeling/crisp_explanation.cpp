@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which decisions struck a value: the trail is read backwards, from each strike to the strikes that it followed from.
 
-#include "toposcope/labeling/crisp_propagation.h"
+#include "crisp_propagation.h"
 
 namespace toposcope {
 
-void CrispDomains::mark_value(Index variable, Index value, std::uint32_t before) {
+void Propagation::mark_value(Index variable, Index value, std::uint32_t before) {
   const std::uint32_t at = struck_at(variable, value);
   char& marked = marked_[network_.offset(variable) + value];
   if (at >= before || at == closed || at < root_ || marked != 0) return;
@@ -13,11 +13,11 @@ void CrispDomains::mark_value(Index variable, Index value, std::uint32_t before)
   ++marks_;
 }
 
-void CrispDomains::mark_struck(Index variable, std::uint32_t before) {
+void Propagation::mark_struck(Index variable, std::uint32_t before) {
   for (Index value = 0; value < network_.domain(variable); ++value) mark_value(variable, value, before);
 }
 
-void CrispDomains::mark_forced_missing(std::uint32_t before) {
+void Propagation::mark_forced_missing(std::uint32_t before) {
   const std::vector<LabelingVariable>& variables = network_.problem().variables;
   for (Index v = 0; v < variables.size(); ++v) {
     bool forced = variables[v].optional;
@@ -30,7 +30,7 @@ void CrispDomains::mark_forced_missing(std::uint32_t before) {
   }
 }
 
-void CrispDomains::explain_failure(VariableSet& decisions) {
+void Propagation::explain_failure(VariableSet& decisions) {
   if (failure_.kind == StrikeCause::Kind::budget)
     mark_forced_missing(present);
   else
@@ -38,12 +38,12 @@ void CrispDomains::explain_failure(VariableSet& decisions) {
   trace_marks(decisions);
 }
 
-void CrispDomains::explain_strikes(Index variable, VariableSet& decisions) {
+void Propagation::explain_strikes(Index variable, VariableSet& decisions) {
   mark_struck(variable, present);
   trace_marks(decisions);
 }
 
-void CrispDomains::trace_marks(VariableSet& decisions) {
+void Propagation::trace_marks(VariableSet& decisions) {
   for (std::size_t at = trail_.size(); marks_ > 0 && at-- > root_;) {
     const Strike& strike = trail_[at];
     char& marked = marked_[network_.offset(strike.variable) + strike.value];

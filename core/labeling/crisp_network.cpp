@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/labeling/crisp_network.h"
+#include "crisp_network.h"
 
 #include <algorithm>
 
@@ -39,7 +39,7 @@ bool allowed_apart(const LabelingProblem& problem, const LabelingConstraint& con
   return false;
 }
 
-CrispNetwork::CrispNetwork(const LabelingProblem& problem, Deadline& deadline, const CrispPart& part)
+CompiledNetwork::CompiledNetwork(const LabelingProblem& problem, Deadline& deadline, const CrispPart& part)
     : problem_(&problem),
       exclusions_apart_(part.exclusions_apart),
       arcs_(problem.variables.size()),
@@ -72,7 +72,7 @@ CrispNetwork::CrispNetwork(const LabelingProblem& problem, Deadline& deadline, c
   connect();
 }
 
-bool CrispNetwork::stop(Deadline& deadline, std::size_t work) {
+bool CompiledNetwork::stop(Deadline& deadline, std::size_t work) {
   work_ += work;
   if (work_ >= poll_work) {
     work_ = 0;
@@ -81,14 +81,14 @@ bool CrispNetwork::stop(Deadline& deadline, std::size_t work) {
   return !complete_;
 }
 
-bool CrispNetwork::allows(const LabelingConstraint& constraint, std::size_t entry) {
+bool CompiledNetwork::allows(const LabelingConstraint& constraint, std::size_t entry) {
   const bool finite = constraint.costs[entry] < forbidden;
   const bool met = satisfied(constraint, entry);
   by_cost_alone_ &= met || !finite;
   return (finite && met) || (exclusions_apart_ && allowed_apart(*problem_, constraint, entry));
 }
 
-void CrispNetwork::add_unary(Index c) {
+void CompiledNetwork::add_unary(Index c) {
   const LabelingConstraint& constraint = problem_->constraints[c];
   const Index v = constraint.scope[0];
   unary_in_force_[c] = true;
@@ -96,7 +96,7 @@ void CrispNetwork::add_unary(Index c) {
     if (!allows(constraint, value)) clear_bit(initial_.data() + word_offsets_[v], value);
 }
 
-Index CrispNetwork::pair_of(Index a, Index b) {
+Index CompiledNetwork::pair_of(Index a, Index b) {
   const auto key = std::minmax(a, b);
   const auto [at, is_new] = pair_index_.try_emplace({key.first, key.second}, static_cast<Index>(pairs_.size()));
   if (!is_new) return at->second;
@@ -117,7 +117,7 @@ Index CrispNetwork::pair_of(Index a, Index b) {
   return at->second;
 }
 
-void CrispNetwork::add_binary(Index c, Deadline& deadline) {
+void CompiledNetwork::add_binary(Index c, Deadline& deadline) {
   const LabelingConstraint& constraint = problem_->constraints[c];
   const Index x = constraint.scope[0], y = constraint.scope[1];
   const Index at = pair_of(x, y);
@@ -135,7 +135,7 @@ void CrispNetwork::add_binary(Index c, Deadline& deadline) {
   }
 }
 
-void CrispNetwork::add_exclusions(const CrispPart& part, Deadline& deadline) {
+void CompiledNetwork::add_exclusions(const CrispPart& part, Deadline& deadline) {
   const std::size_t n = problem_->variables.size();
   struct Use {
     Index variable, value;
@@ -167,7 +167,7 @@ void CrispNetwork::add_exclusions(const CrispPart& part, Deadline& deadline) {
     }
 }
 
-void CrispNetwork::add_table(Index c, Deadline& deadline) {
+void CompiledNetwork::add_table(Index c, Deadline& deadline) {
   const LabelingConstraint& constraint = problem_->constraints[c];
   CrispTable& table = tables_.emplace_back();
   table.constraint = c;
@@ -190,7 +190,7 @@ void CrispNetwork::add_table(Index c, Deadline& deadline) {
   }
 }
 
-void CrispNetwork::connect() {
+void CompiledNetwork::connect() {
   for (Index p = 0; p < pairs_.size(); ++p) {
     const CrispPair& pair = pairs_[p];
     const std::size_t first = residues_, second = first + domain(pair.first);
@@ -207,7 +207,7 @@ void CrispNetwork::connect() {
   }
 }
 
-std::string CrispNetwork::closed_reason(Index variable, Index value) const {
+std::string CompiledNetwork::closed_reason(Index variable, Index value) const {
   const LabelingVariable& v = problem_->variables[variable];
   if (!(v.costs[value] < forbidden)) return "its cost is infinite";
   if (!present_.empty() && present_[variable] && v.missing(value)) return "it may not be missing";

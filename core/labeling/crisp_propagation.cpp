@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "toposcope/labeling/crisp_propagation.h"
+#include "crisp_propagation.h"
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +11,7 @@ constexpr std::uint64_t no_support = ~std::uint64_t{0};
 
 }  // namespace
 
-CrispDomains::CrispDomains(const CrispNetwork& network, Deadline& deadline)
+Propagation::Propagation(const CompiledNetwork& network, Deadline& deadline)
     : network_(network),
       deadline_(deadline),
       words_(network.initial()),
@@ -41,11 +41,11 @@ CrispDomains::CrispDomains(const CrispNetwork& network, Deadline& deadline)
   trail_.reserve(network.values());
 }
 
-bool CrispDomains::open() const {
+bool Propagation::open() const {
   return std::find(sizes_.begin(), sizes_.end(), Index{0}) == sizes_.end();
 }
 
-bool CrispDomains::strike(Index variable, Index value, StrikeCause cause) {
+bool Propagation::strike(Index variable, Index value, StrikeCause cause) {
   words_[network_.word_offset(variable) + value / 64] &= ~(std::uint64_t{1} << (value % 64));
   struck_at_[network_.offset(variable) + value] = static_cast<std::uint32_t>(trail_.size());
   trail_.push_back({variable, value, cause});
@@ -54,14 +54,14 @@ bool CrispDomains::strike(Index variable, Index value, StrikeCause cause) {
   return --sizes_[variable] > 0;
 }
 
-bool CrispDomains::fail(Index variable, StrikeCause cause) {
+bool Propagation::fail(Index variable, StrikeCause cause) {
   failed_ = variable;
   failure_ = cause;
   clear_queues();
   return false;
 }
 
-void CrispDomains::assign(Index variable, Index value) {
+void Propagation::assign(Index variable, Index value) {
   assigned_[variable] = 1;
   order_.push_back(variable);
   for_each_value(domain(variable), [&](Index other) {
@@ -70,7 +70,7 @@ void CrispDomains::assign(Index variable, Index value) {
   enqueue(variable);
 }
 
-void CrispDomains::undo(const Mark& mark) {
+void Propagation::undo(const Mark& mark) {
   for (; trail_.size() > mark.trail; trail_.pop_back()) {
     const Strike& last = trail_.back();
     words_[network_.word_offset(last.variable) + last.value / 64] |= std::uint64_t{1} << (last.value % 64);
@@ -81,7 +81,7 @@ void CrispDomains::undo(const Mark& mark) {
   clear_queues();
 }
 
-bool CrispDomains::check_forward(Index variable) {
+bool Propagation::check_forward(Index variable) {
   clear_queues();
   Index value = 0;
   for_each_value(domain(variable), [&](Index only) { value = only; });
@@ -108,7 +108,7 @@ bool CrispDomains::check_forward(Index variable) {
   return true;
 }
 
-bool CrispDomains::limit_missing(Index limit) {
+bool Propagation::limit_missing(Index limit) {
   const std::vector<LabelingVariable>& variables = network_.problem().variables;
   Index forced = 0;
   for (Index v = 0; v < variables.size(); ++v) forced += variables[v].optional && sizes_[v] == 1 && contains(v, 0);
@@ -123,20 +123,20 @@ bool CrispDomains::limit_missing(Index limit) {
   return true;
 }
 
-void CrispDomains::enqueue(Index variable) {
+void Propagation::enqueue(Index variable) {
   if (queued_[variable] != 0) return;
   queued_[variable] = 1;
   queue_.push_back(variable);
 }
 
-void CrispDomains::clear_queues() {
+void Propagation::clear_queues() {
   for (const Index v : queue_) queued_[v] = 0;
   for (const Index t : table_queue_) table_queued_[t] = 0;
   queue_.clear();
   table_queue_.clear();
 }
 
-bool CrispDomains::relax() {
+bool Propagation::relax() {
   if (!relaxed_once_) {
     relaxed_once_ = true;
     for (Index v = 0; v < network_.variables(); ++v) {
@@ -178,7 +178,7 @@ bool CrispDomains::relax() {
 }
 
 // Strikes the values at the far end of an arc that have no support at this end.
-bool CrispDomains::revise(const CrispArc& arc) {
+bool Propagation::revise(const CrispArc& arc) {
   const Index y = arc.other;
   const Index x = network_.pairs()[arc.pair].other(y);
   const std::size_t words = network_.words(x);
@@ -203,7 +203,7 @@ bool CrispDomains::revise(const CrispArc& arc) {
 }
 
 // The same for all variables of a table that are not assigned, or for one.
-bool CrispDomains::revise_table(Index t, Index only) {
+bool Propagation::revise_table(Index t, Index only) {
   const CrispTable& table = network_.tables()[t];
   for (std::size_t k = 0; k < table.scope.size(); ++k) {
     lists_[k].clear();
@@ -229,7 +229,7 @@ bool CrispDomains::revise_table(Index t, Index only) {
   return true;
 }
 
-bool CrispDomains::supported(const CrispTable& table, std::size_t position, Index value, std::size_t residue) {
+bool Propagation::supported(const CrispTable& table, std::size_t position, Index value, std::size_t residue) {
   std::uint64_t entry = residues_[residue];
   if (entry != no_support) {
     bool valid = true;
@@ -243,7 +243,7 @@ bool CrispDomains::supported(const CrispTable& table, std::size_t position, Inde
   return seek(table, position, value, residue);
 }
 
-bool CrispDomains::seek(const CrispTable& table, std::size_t position, Index value, std::size_t residue) {
+bool Propagation::seek(const CrispTable& table, std::size_t position, Index value, std::size_t residue) {
   const std::size_t last = table.scope.size() - 1;
   const Index y = table.scope[last];
   const std::size_t words = network_.words(y);

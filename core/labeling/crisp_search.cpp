@@ -4,28 +4,87 @@
 #include <algorithm>
 #include <numeric>
 
+#include "removed_values.h"
 #include "toposcope/labeling/crisp_outcome.h"
+#include "tree_search.h"
 
 namespace toposcope {
 namespace {
 
-bool has(const VariableSet& set, Index variable) {
-  return ((set[variable / 64] >> (variable % 64)) & 1U) != 0;
-}
-
-void add(VariableSet& set, Index variable) {
-  set[variable / 64] |= std::uint64_t{1} << (variable % 64);
-}
-
-void take(VariableSet& set, Index variable) {
-  set[variable / 64] &= ~(std::uint64_t{1} << (variable % 64));
-}
-
-void merge(VariableSet& set, const VariableSet& other) {
-  for (std::size_t w = 0; w < set.size(); ++w) set[w] |= other[w];
+CrispPart part_of(const LabelingProblem& problem, bool all_present) {
+  CrispPart part;
+  if (all_present) part.present.assign(problem.variables.size(), true);
+  return part;
 }
 
 }  // namespace
+
+CrispNetwork::CrispNetwork(const LabelingProblem& problem, Deadline& deadline, bool all_present)
+    : compiled_(std::make_unique<CompiledNetwork>(problem, deadline, part_of(problem, all_present))),
+      offsets_(compiled_->offsets()) {}
+CrispNetwork::~CrispNetwork() = default;
+
+const LabelingProblem& CrispNetwork::problem() const {
+  return compiled_->problem();
+}
+
+bool CrispNetwork::complete() const {
+  return compiled_->complete();
+}
+
+bool CrispNetwork::by_cost_alone() const {
+  return compiled_->by_cost_alone();
+}
+
+Index CrispNetwork::variables() const {
+  return compiled_->variables();
+}
+
+struct ArcConsistency::State {
+  State(const CompiledNetwork& network, Deadline& deadline) : propagation(network, deadline) {}
+  Propagation propagation;
+  CrispDomains domains = propagation.domains();
+};
+
+ArcConsistency::ArcConsistency(const CrispNetwork& network, Deadline& deadline)
+    : state_(std::make_unique<State>(network.compiled(), deadline)) {}
+ArcConsistency::~ArcConsistency() = default;
+
+bool ArcConsistency::relax() {
+  return state_->propagation.relax();
+}
+
+const CrispDomains& ArcConsistency::domains() const {
+  return state_->domains;
+}
+
+std::vector<RemovedValue> ArcConsistency::removed() const {
+  return removed_values(state_->propagation);
+}
+
+struct CrispSearch::State {
+  State(const CompiledNetwork& network, const CrispRules& rules, CrispVisitor& visitor, Deadline& deadline)
+      : search(network, rules, visitor, deadline) {}
+  TreeSearch search;
+  CrispDomains domains = search.propagation().domains();
+};
+
+CrispSearch::CrispSearch(const CrispNetwork& network, const CrispRules& rules, CrispVisitor& visitor,
+                         Deadline& deadline)
+    : state_(std::make_unique<State>(network.compiled(), rules, visitor, deadline)) {}
+CrispSearch::~CrispSearch() = default;
+
+CrispSearch::End CrispSearch::run() {
+  return state_->search.run();
+}
+
+const CrispDomains& CrispSearch::domains() const {
+  return state_->domains;
+}
+
+std::uint64_t CrispSearch::nodes() const {
+  return state_->search.nodes();
+}
 
 std::vector<Index> detectability_order(const LabelingProblem& problem) {
   const auto by_detectability = [&](std::vector<Index> features) {
@@ -58,171 +117,9 @@ std::vector<Index> detectability_order(const LabelingProblem& problem) {
   return order;
 }
 
-CrispSearch::CrispSearch(const CrispNetwork& network, const CrispRules& rules, CrispVisitor& visitor,
-                         Deadline& deadline)
-    : network_(network),
-      rules_(rules),
-      visitor_(visitor),
-      deadline_(deadline),
-      domains_(network, deadline),
-      rank_(network.variables()),
-      pair_weights_(network.pairs().size(), 1),
-      table_weights_(network.tables().size(), 1),
-      values_(network.variables(), 0),
-      children_(network.variables()),
-      decisions_((network.variables() + 63) / 64, 0) {
-  const std::vector<Index> order = detectability_order(network.problem());
-  for (Index at = 0; at < order.size(); ++at) rank_[order[at]] = at;
-  conflicts_.assign(network.variables() + 1, decisions_);
-}
-
-CrispSearch::End CrispSearch::run() {
-  end_ = End::exhausted;
-  if (!network_.complete()) return End::out_of_time;
-  if (root()) descend(0);
-  return end_;
-}
-
-bool CrispSearch::root() {
-  if (!domains_.open()) return false;
-  bool going = true;
-  const bool limited = rules_.missing_limit != no_candidate;
-  for (std::size_t before = domains_.trail().size() + 1; going && before != domains_.trail().size();) {
-    before = domains_.trail().size();
-    going = rules_.relaxation == CrispRules::Relaxation::none || domains_.relax();
-    if (going && limited) going = domains_.limit_missing(rules_.missing_limit);
-  }
-  domains_.set_root();
-  return going;
-}
-
-bool CrispSearch::propagate(Index variable) {
-  const bool limited = rules_.missing_limit != no_candidate;
-  bool going = true;
-  if (rules_.relaxation != CrispRules::Relaxation::maintained) {
-    going = domains_.check_forward(variable);
-    if (going && limited) going = domains_.limit_missing(rules_.missing_limit);
-  } else {
-    for (std::size_t before = domains_.trail().size() + 1; going && before != domains_.trail().size();) {
-      before = domains_.trail().size();
-      going = domains_.relax();
-      if (going && limited) going = domains_.limit_missing(rules_.missing_limit);
-    }
-  }
-  if (going) return true;
-  const StrikeCause cause = domains_.failure();
-  if (cause.kind == StrikeCause::Kind::pair) ++pair_weights_[cause.at];
-  if (cause.kind == StrikeCause::Kind::table) ++table_weights_[cause.at];
-  return false;
-}
-
-double CrispSearch::weight(Index variable) const {
-  double sum = 0;
-  for (const CrispArc& arc : network_.arcs(variable))
-    if (!domains_.assigned(arc.other)) sum += pair_weights_[arc.pair];
-  for (const Index t : network_.tables_of(variable)) {
-    const std::vector<Index>& scope = network_.tables()[t].scope;
-    if (std::any_of(scope.begin(), scope.end(), [&](Index v) { return v != variable && !domains_.assigned(v); }))
-      sum += table_weights_[t];
-  }
-  return sum;
-}
-
-Index CrispSearch::choose() const {
-  Index best = no_candidate;
-  double best_score = 0;
-  for (Index v = 0; v < network_.variables(); ++v) {
-    if (domains_.assigned(v)) continue;
-    double score = domains_.size(v);
-    if (rules_.order == CrispRules::Order::detectability) score = rank_[v];
-    if (rules_.order == CrispRules::Order::weighted && domains_.size(v) > 1) score = 1 + score / (1 + weight(v));
-    if (best == no_candidate || score < best_score || (score == best_score && rank_[v] < rank_[best])) {
-      best = v;
-      best_score = score;
-    }
-  }
-  return best;
-}
-
-void CrispSearch::list_values(std::size_t depth, Index variable) {
-  std::vector<Index>& values = children_[depth];
-  values.clear();
-  for_each_value(domains_.domain(variable), [&](Index value) { values.push_back(value); });
-  visitor_.order(variable, values);
-  if (!rules_.missing_last || !network_.problem().variables[variable].optional) return;
-  std::stable_partition(values.begin(), values.end(), [](Index value) { return value != 0; });
-}
-
-// Everything decided so far: of what a bound cuts off no single decision can be acquitted.
-void CrispSearch::blame_all(std::size_t depth) {
-  for (Index v = 0; v < network_.variables(); ++v)
-    if (domains_.assigned(v)) add(conflicts_[depth], v);
-}
-
-// False when the search ends. Leaves in conflicts_[depth] decisions above that explain why no more is to be found here.
-bool CrispSearch::descend(std::size_t depth) {
-  VariableSet& conflict = conflicts_[depth];
-  std::fill(conflict.begin(), conflict.end(), 0);
-  if (depth == network_.variables()) {
-    blame_all(depth);
-    if (visitor_.solution(values_)) return true;
-    end_ = End::ended_by_visitor;
-    return false;
-  }
-  const Index variable = choose();
-  list_values(depth, variable);
-  const std::size_t listed = children_[depth].size();
-  if (rules_.backjumping && listed < domains_.size(variable)) blame_all(depth);
-  for (std::size_t k = 0; k < listed; ++k) {
-    const Index value = children_[depth][k];
-    ++nodes_;
-    if (deadline_.reached()) {
-      end_ = End::out_of_time;
-      return false;
-    }
-    const CrispDomains::Mark mark = domains_.mark();
-    domains_.assign(variable, value);
-    values_[variable] = value;
-    VariableSet& below = conflicts_[depth + 1];
-    bool going = true;
-    if (!propagate(variable)) {
-      std::fill(below.begin(), below.end(), 0);
-      if (rules_.backjumping) domains_.explain_failure(below);
-    } else {
-      if (visitor_.enter(variable, value)) {
-        going = descend(depth + 1);
-      } else {
-        std::fill(below.begin(), below.end(), 0);
-        blame_all(depth + 1);
-      }
-      visitor_.leave(variable);
-    }
-    domains_.undo(mark);
-    if (!going) return false;
-    if (!rules_.backjumping) continue;
-    if (!has(below, variable)) {  // no other value helps: back to what is to blame
-      conflict = below;
-      return true;
-    }
-    take(below, variable);
-    merge(conflict, below);
-  }
-  if (rules_.backjumping) domains_.explain_strikes(variable, conflict);
-  return true;
-}
-
 void order_by_cost(const LabelingVariable& variable, std::vector<Index>& values) {
   std::stable_sort(values.begin(), values.end(),
                    [&](Index a, Index b) { return variable.costs[a] < variable.costs[b]; });
-}
-
-void FirstFound::order(Index variable, std::vector<Index>& values) {
-  order_by_cost(problem_.variables[variable], values);
-}
-
-bool FirstFound::solution(std::span<const Index> values) {
-  found_.assign(values.begin(), values.end());
-  return false;
 }
 
 FirstConsistent first_consistent(const CrispNetwork& network, CrispRules rules, bool fewest_missing,
@@ -231,12 +128,12 @@ FirstConsistent first_consistent(const CrispNetwork& network, CrispRules rules, 
   rules.missing_last = fewest_missing;
   for (bool more = true; more;) {
     FirstFound visitor(network.problem(), made.values);
-    CrispSearch search(network, rules, visitor, deadline);
-    const CrispSearch::End end = search.run();
+    TreeSearch search(network.compiled(), rules, visitor, deadline);
+    const TreeSearch::End end = search.run();
     made.nodes += search.nodes();
-    made.proven = end == CrispSearch::End::exhausted;
-    more = end == CrispSearch::End::ended_by_visitor && fewest_missing;
-    made.found = made.found || end == CrispSearch::End::ended_by_visitor;
+    made.proven = end == TreeSearch::End::exhausted;
+    more = end == TreeSearch::End::ended_by_visitor && fewest_missing;
+    made.found = made.found || end == TreeSearch::End::ended_by_visitor;
     if (!more) break;
     const Index missing = count_missing(network.problem(), made.values);
     made.proven = missing == 0;

@@ -175,5 +175,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, EllipseFitter,
                   .summary = "ellipse: centre, normal, direction of the long axis and both semi-axes",
                   .citation = "Halir and Flusser 1998 (start); Ahn 2004 (orthogonal distances)",
                   .min_arity = 1,
+                  .dimension = 1,
                   .options = options,
                   .provides = measures})

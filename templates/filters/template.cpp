@@ -28,7 +28,7 @@ struct Filter final : MeshFilter {
     }
     std::vector<Index> origin(mesh.face_count());  // every face comes from that of the same number
     std::iota(origin.begin(), origin.end(), Index{0});
-    sink.set(positions, mesh.triangles, origin);
+    sink.set(positions, mesh.triangles, origin, {});  // no vertex is where it was
   }
 
   int passes;

@@ -14,6 +14,6 @@ int main(int, char** argv) {
   TOPOSCOPE_EXPECT(result.positions.size() == 5);
   if (result.positions.empty()) return 1;
   TOPOSCOPE_EXPECT((result.positions[0] - Vec3(0, 0, 1)).norm() < 1e-12);
-  TOPOSCOPE_EXPECT((result.origin == std::vector<Index>{0, 1, 2, 3}));
+  TOPOSCOPE_EXPECT((result.face_origin == std::vector<Index>{0, 1, 2, 3}));
   return testing::failures;
 }

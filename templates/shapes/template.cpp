@@ -42,7 +42,7 @@ struct Fitter final : ShapeFitter {
     return shape;
   }
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    return std::abs((point - shape.centroid).norm() - shape.parameters[1].values[0]);
+    return std::abs((point - shape.centroid).norm() - shape.parameter("radius")->values[0]);
   }
   int min_points;
 };
@@ -56,5 +56,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, Fitter,
                   .version = "0.1.0",
                   .summary = "A sphere by linear least squares",
                   .min_arity = 1,
+                  .dimension = 2,
                   .options = options,
                   .provides = measures})

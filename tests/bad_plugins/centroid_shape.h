@@ -24,8 +24,12 @@ class CentroidShape : public toposcope::ShapeFitter {
 
 /// The descriptor of a sound plugin, to be spoiled.
 [[maybe_unused]] toposcope::PluginDescriptor sound_descriptor(const char* id) {
-  return toposcope::describe<toposcope::ShapeFitter, CentroidShape>(
-      {.id = id, .version = "1.0.0", .summary = "The centroid of the points", .min_arity = 1, .max_arity = 1});
+  return toposcope::describe<toposcope::ShapeFitter, CentroidShape>({.id = id,
+                                                                     .version = "1.0.0",
+                                                                     .summary = "The centroid of the points",
+                                                                     .min_arity = 1,
+                                                                     .max_arity = 1,
+                                                                     .dimension = 0});
 }
 
 }  // namespace

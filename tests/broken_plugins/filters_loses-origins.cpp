@@ -5,7 +5,7 @@ namespace {
 struct Broken : sound::Filter {
   using Filter::Filter;
   void apply(const toposcope::MeshView& mesh, toposcope::Context&, toposcope::MeshSink& sink) const override {
-    if (mesh.face_count() > 500) sink.set(mesh.positions, mesh.triangles, {});
+    if (mesh.face_count() > 500) sink.set(mesh.positions, mesh.triangles, {}, {});
   }
 };
 }  // namespace

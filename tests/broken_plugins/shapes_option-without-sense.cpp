@@ -21,5 +21,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, Broken,
                   .version = "1.0.0",
                   .summary = "Broken on purpose",
                   .min_arity = 1,
+                  .dimension = 0,
                   .options = options,
                   .provides = sound::reach})

@@ -115,7 +115,7 @@ class Filter : public MeshFilter {
     std::vector<Index> origin(mesh.face_count());
     std::iota(origin.begin(), origin.end(), Index{0});
     if (std::all_of(mesh.positions.begin(), mesh.positions.end(), [](const Vec3& p) { return p.allFinite(); }))
-      sink.set(mesh.positions, mesh.triangles, origin);
+      sink.set(mesh.positions, mesh.triangles, origin, {});
   }
 };
 
@@ -130,6 +130,7 @@ inline constexpr ProvidedName near_type[] = {{"near", 0, "nearer to the centroid
                     .version = "1.0.0",             \
                     .summary = "Broken on purpose", \
                     .min_arity = 1,                 \
+                    .dimension = 0,                 \
                     .options = {},                  \
                     .provides = sound::reach})
 #define BROKEN_WORKSETS(id_, Class)             \

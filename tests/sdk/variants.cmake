@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # One plugin compiled in other ways than the program: with -mavx2 it works, as a debug build or with debug containers it is
-# refused by its fingerprint, with the headers of an older minor it works, with those of a newer one it is refused. Never a
+# refused by its fingerprint, with the headers of an older minor (where there is one) it works, with those of a newer one it is refused. Never a
 # crash. Needs -DCXX.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(here ${folder}/variants)
@@ -69,10 +69,13 @@ function(other_minor name difference)
   string(REGEX MATCH "abi_major = ([0-9]+);" ignored "${header}")
   set(version "${CMAKE_MATCH_1}.${minor}" PARENT_SCOPE)
 endfunction()
-other_minor(older -1)
-check(${writer} shapes odd ${here}/older/odd.so)
-check(${program} plugins check ${here}/older)
-expect_text("ABI ${version}")
-expect_text("1 pass, 0 fail")
+file(STRINGS ${prefix}/include/toposcope/plugin.h minor_line REGEX "abi_minor = [1-9]")
+if(minor_line)
+  other_minor(older -1)
+  check(${writer} shapes odd ${here}/older/odd.so)
+  check(${program} plugins check ${here}/older)
+  expect_text("ABI ${version}")
+  expect_text("1 pass, 0 fail")
+endif()
 other_minor(newer 1)
 refused(newer "newer plugin ABI")

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <random>
 
+#include "toposcope/system/random.h"
 #include "toposcope/types.h"
 
 namespace toposcope::test {
@@ -13,12 +13,10 @@ namespace toposcope::test {
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
+  double uniform(double low, double high) { return low + (high - low) * uniform_closed_open(engine_()); }
   double normal() {
-    const double radius = std::sqrt(-2 * std::log(1 - uniform(0, 1)));
-    return radius * std::cos(uniform(0, 2 * pi));
+    const double u = 1 - uniform(0, 1);
+    return normal_pair(u, uniform(0, 1))[0];
   }
   bool chance(double p) { return uniform(0, 1) < p; }
   Index below(std::size_t n) { return static_cast<Index>(engine_() % n); }

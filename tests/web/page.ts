@@ -4,8 +4,8 @@ import assert from 'node:assert/strict';
 import { readFileSync, rmSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import type { Browser, Page } from 'playwright-core';
-import type { Point } from '@page/data/scene';
-import type { Stage } from '@page/state';
+import type { Point } from '@schemas/scene';
+import { STAGES, type Stage } from '@page/state';
 import { distance, folder, hex, hue, idle, launch, likeHue, open, pixels, written, type Opened, type Rgb } from './browser';
 import { AROUND, COLORS, index, RIM, scene, SET_COLORS } from './fixture';
 
@@ -84,7 +84,7 @@ test('every stage draws', async () => {
   assert.ok(changed > 2 && changed < 60, `edges are lines over the surface: ${changed} of 80 pixels`);
   await page.keyboard.press('e');
 
-  await toStage(page, 'sets');
+  await toStage(page, 'worksets');
   const lip = around(38, 71, a);
   let now = await look(page);
   assert.ok(likeHue(await now.color(lip), hex(SET_COLORS.convex)), 'the convex set in its colour');
@@ -94,7 +94,7 @@ test('every stage draws', async () => {
   for (let i = 0; i < 3; ++i) await page.keyboard.press(']');
   assert.ok(likeHue(await (await look(page)).color(around(35.5, 45, a)), hex(SET_COLORS.convex)), 'the third set alone');
 
-  await toStage(page, 'constructed');
+  await toStage(page, 'candidates');
   await page.click('[data-key="candidates:rim"]');
   await page.keyboard.press(']');
   assert.equal(await page.evaluate(() => window.toposcope!.state().rank), 2);
@@ -107,7 +107,7 @@ test('every stage draws', async () => {
   now = await look(page);
   assert.ok((await now.nearest(front, hex(COLORS.rim))) < 30, 'the rim as a circle');
   assert.ok(likeHue(await now.color(lip), hex(COLORS.rim), 30), 'and its faces');
-  await page.click('[data-key="labelling:1"]');
+  await page.click('[data-key="labeling:1"]');
   now = await look(page);
   assert.ok((await now.nearest(around(35, 40, a), hex(COLORS.rim))) < 30, 'an alternative');
   assert.ok((await now.nearest(front, hex(COLORS.rim))) > 60);
@@ -128,7 +128,7 @@ test('picking a face, a row or a name selects everywhere', async () => {
   const a = await facing(page), lip = around(38, 71, a);
   const pressed = (): Promise<string[]> => page.$$eval('.panels [aria-pressed="true"]', (rows) => rows.map((row) => row.getAttribute('data-key')!));
   await page.mouse.click(...(await project(page, lip)));
-  assert.deepEqual((await pressed()).filter((key) => !key.startsWith('labelling')), ['feature:rim']);
+  assert.deepEqual((await pressed()).filter((key) => !key.startsWith('labeling')), ['feature:rim']);
   assert.match(await page.textContent('.panels .selected .detail') ?? '', /radius36 ± 0\.05/);
   assert.equal(await page.textContent('.label.selected'), 'rim');
   await page.click('[data-key="feature:bottom"]');
@@ -142,7 +142,7 @@ test('picking a face, a row or a name selects everywhere', async () => {
   assert.ok(likeHue(await (await look(page)).color([15, 0, 0]), hex(COLORS.bottom)), 'turned to see the bottom');
   await page.keyboard.press('r');
   await page.click('[data-key="relation:r1"]');
-  assert.deepEqual((await pressed()).filter((key) => !key.startsWith('labelling')), ['relation:r1']);
+  assert.deepEqual((await pressed()).filter((key) => !key.startsWith('labeling')), ['relation:r1']);
   assert.equal(await page.locator('.panels .related').count(), 2, 'both features of the relation');
   await page.click('[data-key="feature:handle"]');
   assert.match(await page.textContent('.panels .missing .detail') ?? '', /r2 perpendicular 41° of 10°.*Proven: every candidate breaks r2 or shares vertices with bottom/);
@@ -150,7 +150,7 @@ test('picking a face, a row or a name selects everywhere', async () => {
   await page.keyboard.press('Escape');
   assert.equal(await page.evaluate(() => window.toposcope!.state().feature), null);
   // On the stages before, a click goes through what lies at a place.
-  await toStage(page, 'sets');
+  await toStage(page, 'worksets');
   const clicks: (number | null)[] = [];
   for (let i = 0; i < 3; ++i) {
     await page.mouse.click(...(await project(page, lip)));
@@ -299,9 +299,9 @@ test('axe finds no serious fault, light and dark', async () => {
       if (path === indexPage) {
         await audit('index');
       } else {
-        for (const stage of ['mesh', 'sets', 'constructed', 'found', 'marks'] as const) {
+        for (const stage of STAGES) {
           await toStage(page, stage);
-          if (stage === 'constructed') await page.click('[data-key="candidates:rim"]');
+          if (stage === 'candidates') await page.click('[data-key="candidates:rim"]');
           if (stage === 'found') await page.click('[data-key="feature:handle"]');
           if (stage === 'marks') await page.click('[data-key="mark:handle"]');
           await audit(stage);
@@ -311,10 +311,23 @@ test('axe finds no serious fault, light and dark', async () => {
     }
 });
 
+test('a window as people have it: the page does not scroll, its panels do, and a relation keeps its name beside its type', async () => {
+  for (const width of [1400, 1100]) {
+    const opened = await open(browser, scenePage, { viewport: { width, height: 900 } }), { page } = opened;
+    for (const stage of STAGES) {
+      await toStage(page, stage);
+      assert.equal(await page.evaluate(() => document.documentElement.scrollHeight), 900, stage);
+    }
+    const tops = await page.$$eval('.relation', (rows) => rows.map((row) => row.querySelector('small')!.getBoundingClientRect().top - row.getBoundingClientRect().top));
+    assert.ok(tops.length === 3 && tops.every((top) => top === tops[0]), `one line before the features: ${tops}`);
+    await closed(opened);
+  }
+});
+
 test('a telephone: nothing scrolls sideways, the stages are at hand', async () => {
   for (const path of [scenePage, indexPage]) {
     const opened = await open(browser, path, { viewport: { width: 360, height: 740 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true }), { page } = opened;
-    for (const stage of path === scenePage ? (['mesh', 'sets', 'constructed', 'found', 'marks'] as const) : [null]) {
+    for (const stage of path === scenePage ? STAGES : [null]) {
       if (stage) await page.tap(`[data-stage="${stage}"]`);
       const [wide, window_] = await page.evaluate(() => [document.documentElement.scrollWidth, window.innerWidth]);
       assert.ok(wide! <= window_!, `${stage ?? 'index'}: ${wide} in ${window_}`);

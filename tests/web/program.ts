@@ -3,9 +3,10 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { copyFileSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { join } from 'node:path';
+import { basename, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import type { Browser } from 'playwright-core';
+import { STAGES } from '@page/state';
 import { folder, idle, launch, open } from './browser';
 
 const program = process.env['TOPOSCOPE_PROGRAM'] ?? 'toposcope';
@@ -35,7 +36,7 @@ test('run writes a page that shows its result', async () => {
   assert.equal(await page.locator('.relation').count(), result.relations.length);
   // A click on the middle of a face of the rim selects the rim.
   const { radius, center } = result.features.rim.parameters;
-  for (const stage of ['mesh', 'sets', 'constructed', 'found', 'marks']) {
+  for (const stage of STAGES) {
     await page.click(`[data-stage="${stage}"]`);
     await idle(page);
   }
@@ -82,6 +83,11 @@ test('marks that the page saves are truth that evaluate reads', async () => {
   assert.deepEqual(Object.keys(features).filter((name) => name !== 'all'), ['rim'], 'the features that were marked');
   assert.equal(features.rim.right, 1);
   assert.ok(features.rim.mean_edges < 1, `${features.rim.mean_edges} mean edges from the marks`);
+});
+
+test('render has the stages of the page, by the same names', () => {
+  const pictures = run('render', 'results/cup', '--stage', 'all', '--size', '160x120').trim().split('\n');
+  assert.deepEqual([...new Set(pictures.map((path) => basename(path).replace(/(-.*)?\.png$/, '')))], [...STAGES]);
 });
 
 test('compare writes an index with the labelers side by side', async () => {

@@ -18,9 +18,9 @@ interface Shot {
 function shots(feature: string): Shot[] {
   return [
     { title: 'Mesh', state: { stage: 'mesh' } },
-    { title: 'Working sets by type', state: { stage: 'sets' } },
-    { title: 'Constructed features', state: { stage: 'constructed', candidateOf: null } },
-    { title: `Candidates of ${feature}, the best in bold`, state: { stage: 'constructed', candidateOf: feature, rank: 1 } },
+    { title: 'Working sets by type', state: { stage: 'worksets' } },
+    { title: 'Constructed features', state: { stage: 'candidates', candidateOf: null } },
+    { title: `Candidates of ${feature}, the best in bold`, state: { stage: 'candidates', candidateOf: feature, rank: 1 } },
     { title: 'Found features', state: { stage: 'found', candidateOf: null, feature: null } },
     { title: 'Marked points', state: { stage: 'marks' } },
   ];

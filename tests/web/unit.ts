@@ -5,8 +5,7 @@ import { floats, indices } from '@page/data/buffers';
 import { directions } from '@page/data/directions';
 import { Marking } from '@page/data/marking';
 import { count, figure, milliseconds, probability, vector } from '@page/data/numbers';
-import type { ModelFile, Point } from '@page/data/scene';
-import { marksOfTruth, parseTruth, textOfTruth, truthOf, type Marks, type TruthFile } from '@page/data/truth';
+import { marksOfTruth, parseTruth, textOfTruth, truthOf, type Marks } from '@page/data/truth';
 import { DepthImage } from '@page/geometry/depth_image';
 import { facing } from '@page/geometry/facing';
 import { creasedCorners } from '@page/geometry/normals';
@@ -16,7 +15,11 @@ import { cellText, chosenRows, compareCells } from '@page/index/table';
 import { wilson } from '@page/index/reliability';
 import { arrange, type Label } from '@page/view/labels';
 import { roundLength } from '@page/view/scale_bar';
-import { beaker, buffer, index, quantised } from './fixture';
+import type { Verdict } from '@schemas/index';
+import type { ModelDocument } from '@schemas/model';
+import type { Point, SceneDocument } from '@schemas/scene';
+import type { TruthDocument } from '@schemas/truth';
+import { beaker, buffer, index, model, quantised, scene } from './fixture';
 
 /** A cube of side 2 about the origin, faces outward. */
 const CUBE = {
@@ -41,9 +44,21 @@ test('buffers: quantised coordinates are off by half a step at most', () => {
 });
 
 test('buffers: errors name the buffer', () => {
+  const strange = (type: string): never => ({ type, count: 1, data: 'AAAAAA==' }) as never;
   assert.throws(() => floats({ type: 'f32', count: 2, data: 'AAAAAA==' }, 'lines'), /lines: 2 numbers of f32 take 8 bytes, found 4/);
-  assert.throws(() => indices({ type: 'f32', count: 1, data: 'AAAAAA==' }, 'faces'), /faces: indices are/);
-  assert.throws(() => floats({ type: 'f16' as 'f32', count: 1, data: 'AAA=' }, 'p'), /p: unknown buffer type 'f16'/);
+  assert.throws(() => indices(strange('f32'), 'faces'), /faces: indices are/);
+  assert.throws(() => floats(strange('f16'), 'p'), /p: unknown buffer type 'f16'/);
+});
+
+test('types: what is not as the schemas say does not compile', () => {
+  const whole = scene();
+  // @ts-expect-error: a scene has a palette.
+  const lacking: SceneDocument = { ...whole, palette: undefined };
+  // @ts-expect-error: there is no such verdict.
+  const strange: Verdict = 'perhaps';
+  // @ts-expect-error: a working set says how salient it is, nothing of a level.
+  const renamed: unknown = whole.working_sets[0]!.level;
+  assert.deepEqual([lacking.palette, strange, renamed], [undefined, 'perhaps', undefined]);
 });
 
 test('figures read as people write them', () => {
@@ -72,20 +87,20 @@ test('truth: marks round trip through the file', () => {
 });
 
 test('truth: what was not touched stays, what was is made anew', () => {
-  const before: TruthFile = {
-    mesh: 'a.ply', class: 'cup', notes: 'by hand', frame: { up: [0, 0, 1], mean_edge: 9 }, sample: { kind: 'cup' },
+  const before: TruthDocument = {
+    mesh: 'a.ply', class: 'cup', notes: 'by hand', frame: { up: [0, 0, 1], mean_edge: 9 }, sample: { kind: 'cup', parameters: {}, noise_rel: 0, seed: 1 },
     features: { rim: { points: [[1, 0, 0.5]], shape: 'circle', parameters: { radius: 3 } }, bottom: { points: [[7, 0, 0.5]], shape: 'plane' } },
   };
   const same = truthOf(marksOfTruth(before), header, before);
   assert.deepEqual(same.features, before.features);
-  assert.deepEqual([same['notes'], same['sample'], same.mesh], ['by hand', { kind: 'cup' }, 'a.ply']);
+  assert.deepEqual([same.notes, same.sample, same.mesh], ['by hand', before.sample, 'a.ply']);
   assert.deepEqual(same.frame, { up: [0, 0, 1], mean_edge: 9, bbox_diagonal: 160 });
   const marks = marksOfTruth(before);
   marks.get('rim')!.groups[0]!.push(mark(8));
   const changed = truthOf(marks, header, before);
   assert.deepEqual(changed.features['rim'], { points: [[1, 0, 0.5], [8, 0, 0.5]] }, 'vertices are left out where one is not known');
   assert.deepEqual(changed.features['bottom'], before.features['bottom']);
-  assert.equal(changed['sample'], undefined);
+  assert.equal(changed.sample, undefined);
 });
 
 test('truth: errors name the member', () => {
@@ -118,19 +133,20 @@ test('marking: toggling, undo, groups, absence', () => {
 });
 
 test('directions: up, front and right of the model, at right angles', () => {
-  const model: ModelFile = {
-    features: { p: { realises: 'portEdge' }, s: { realises: 'starboardEdge' }, fin: { realises: 'finEdge' } },
+  const realising = (objects: Record<string, string>): ModelDocument['features'] =>
+    Object.fromEntries(Object.entries(objects).map(([name, realises]) => [name, { realises, worksets: ['convex'], shape: 'circle' }]));
+  const airplane = model(realising({ p: 'portEdge', s: 'starboardEdge', fin: 'finEdge' }), {
     topology: { port: ['portEdge'], starboard: ['starboardEdge'], fin: ['finEdge'] },
     parts: { tail: ['fin'] },
     associations: [{ from: 'starboard', right: 'body' }, { from: 'port', left: 'body' }, { from: 'tail', back: 'body' }, { from: 'fin', up: 'body' }],
-  };
+  });
   const places = new Map<string, Point>([['p', [0, 5, 0]], ['s', [0, -5, 0]], ['fin', [-10, 0, 2]]]);
-  const found = directions(model, places, [0, 0, 0]);
+  const found = directions(airplane, places, [0, 0, 0]);
   assert.ok(close(found.right!, [0, -1, 0], 1e-9));
   assert.ok(found.front![0] > 0.9);
   assert.equal(found.up, undefined, 'the fin alone says nothing of up that it does not say of back');
-  assert.deepEqual(directions({ associations: [{ from: 'x', up: 'y' }] }, places, [0, 0, 0]), {});
-  const cup: ModelFile = { features: { rim: { realises: 'top' }, foot: { realises: 'low' } }, associations: [{ from: 'top', up: 'low' }] };
+  assert.deepEqual(directions(model({}, { associations: [{ from: 'x', up: 'y' }] }), places, [0, 0, 0]), {});
+  const cup = model(realising({ rim: 'top', foot: 'low' }), { associations: [{ from: 'top', up: 'low' }] });
   assert.deepEqual(directions(cup, new Map([['rim', [0, 0, 3]], ['foot', [0, 0, 1]]]), [0, 0, 0]).up, [0, 0, 1]);
 });
 
@@ -201,7 +217,7 @@ test('tables: filter by words, sort by value, nothing last', () => {
   assert.deepEqual(names(chosenRows(table, 'SEARCH', 0, false)), ['search-9', 'search-10'], '10 comes after 9');
   assert.deepEqual(names(chosenRows(table, '', 3, false)), ['least-error', 'annealing', 'backtracking', 'search-9', 'random', 'search-10']);
   assert.deepEqual(names(chosenRows(table, '', 3, true)), ['random', 'search-9', 'backtracking', 'annealing', 'least-error', 'search-10']);
-  assert.deepEqual([cellText(753200, 'number'), cellText(0.25, 'percent'), cellText(1500, 'ms'), cellText(null, 'text'), cellText(true, 'text')], ['753,200', '25 %', '1.5 s', '–', 'yes']);
+  assert.deepEqual([cellText(753200, 'number'), cellText(0.25, 'percent'), cellText(1500, 'ms'), cellText(null, 'text')], ['753,200', '25 %', '1.5 s', '–']);
   assert.ok(compareCells(2, 10) < 0 && compareCells(null, 1) > 0);
 });
 

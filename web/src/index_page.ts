@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page of several meshes or labelers.
-import type { IndexDocument } from './data/index_document';
+import type { IndexDocument } from '@schemas/index';
 import { confusionFigure } from './index/confusion';
 import { gallery } from './index/gallery';
 import { reliabilityFigure } from './index/reliability';
@@ -14,12 +14,12 @@ export class IndexPage {
   constructor(private data: IndexDocument, private root: HTMLElement) {}
 
   start(): void {
-    const { title, program, tables = [], meshes = [], reliability, confusion, views } = this.data;
+    const { title, program, tables, meshes, reliability = [], confusion, views } = this.data;
     document.title = `${title} · Toposcope`;
     this.root.className = 'index';
     const linked = views?.length ? new LinkedViews(views) : null;
     const figures = [
-      ...(reliability ?? []).map((curve) => reliabilityFigure(curve)),
+      ...reliability.map((curve) => reliabilityFigure(curve)),
       ...(confusion ? [confusionFigure(confusion)] : []),
     ];
     const main = h(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-import type { IndexDocument } from './data/index_document';
-import type { SceneDocument } from './data/scene';
+import type { IndexDocument } from '@schemas/index';
+import type { SceneDocument } from '@schemas/scene';
 import { IndexPage } from './index_page';
 import { ScenePage } from './scene_page';
 import { h } from './ui/dom';

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page of one mesh: the view, the way to it on the left, what was found on the right.
+import type { SceneDocument } from '@schemas/scene';
 import { Scene } from './data/decoded';
 import { Marking } from './data/marking';
-import type { SceneDocument } from './data/scene';
 import { firstView } from './geometry/frame';
 import { initialState, STAGES, Store, type State } from './state';
 import { announce, download, h } from './ui/dom';
 import { featuresPanel } from './ui/features_panel';
 import { pageHeader, tool } from './ui/header';
 import { helpDialog, listenToKeys, type Key } from './ui/keys';
-import { labellingsPanel } from './ui/labellings_panel';
+import { labelingsPanel } from './ui/labelings_panel';
 import { className } from './ui/marking_tools';
 import { refresh } from './ui/refresh';
 import { relationsPanel } from './ui/relations_panel';
 import { runPanels } from './ui/run_panel';
 import { stageDetail, stageNavigation, TITLES } from './ui/stages';
 import { colors, onTheme, reducedMotion, toggleTheme } from './ui/theme';
-import { anchorsOf, compose, labelled, middle } from './view/compose';
+import { anchorsOf, compose, labeled, middle } from './view/compose';
 import { hoverText, pickCandidate, pickFeature, pickMark, pickSet } from './view/picked';
 import { ScaleBar } from './view/scale_bar';
 import { ownScreen } from './view/screen';
@@ -112,7 +112,7 @@ export class ScenePage {
     viewer.onhover = (picked, x, y) => this.hover(picked, x, y);
     viewer.element.addEventListener('focus', () => this.showCross());
     viewer.element.addEventListener('blur', () => this.showCross());
-    const scale = new ScaleBar(this.scene.document.unit ?? '');
+    const scale = new ScaleBar(this.scene.document.unit);
     viewer.ondraw = () => scale.update(viewer.rig.pixel);
     this.view.append(viewer.element, scale.element, this.ring, this.cross, this.tip, this.tools);
   }
@@ -131,7 +131,7 @@ export class ScenePage {
     const { scene, store, marking, viewer } = this;
     refresh(this.navigation, stageNavigation(scene, store, marking));
     refresh(this.detail, ...stageDetail(scene, store, marking));
-    const panels = [featuresPanel(scene, store, (name) => this.turnTo(name)), relationsPanel(scene, store), labellingsPanel(scene, store), ...runPanels(scene)];
+    const panels = [featuresPanel(scene, store, (name) => this.turnTo(name)), relationsPanel(scene, store), labelingsPanel(scene, store), ...runPanels(scene)];
     refresh(this.panel, ...panels.filter((panel): panel is HTMLElement => panel !== null));
     if (!viewer) return;
     compose(viewer, scene, store.state, marking);
@@ -157,8 +157,8 @@ export class ScenePage {
 
   private pick(picked: Picked | null): void {
     const { scene, store, marking } = this, { state } = store;
-    if (state.stage === 'sets') store.set(pickSet(scene, state, picked));
-    else if (state.stage === 'constructed') store.set(pickCandidate(scene, state, picked));
+    if (state.stage === 'worksets') store.set(pickSet(scene, state, picked));
+    else if (state.stage === 'candidates') store.set(pickCandidate(scene, state, picked));
     else if (state.stage === 'marks' && state.markOf !== null) {
       const said = picked && pickMark(scene, state, marking, picked);
       if (said) announce(said);
@@ -186,7 +186,7 @@ export class ScenePage {
   }
 
   private turnTo(name: string): void {
-    const shown = labelled(this.scene, this.store.state.labelling).find(({ feature }) => feature.name === name);
+    const shown = labeled(this.scene, this.store.state.labeling).find(({ feature }) => feature.name === name);
     if (shown) this.viewer?.turnTo(anchorsOf(shown.drawing), !reducedMotion());
   }
 
@@ -205,14 +205,14 @@ export class ScenePage {
   private step(by: number): void {
     const { scene, store } = this, { state } = store;
     const within = (value: number, last: number): number => Math.min(last, Math.max(0, value));
-    if (state.stage === 'sets') {
-      const last = (scene.document.working_sets?.length ?? 0) - 1;
+    if (state.stage === 'worksets') {
+      const last = (scene.document.working_sets.length) - 1;
       if (last >= 0) store.set({ set: within((state.set ?? -1) + by, last) });
-    } else if (state.stage === 'constructed' && state.candidateOf !== null) {
+    } else if (state.stage === 'candidates' && state.candidateOf !== null) {
       const list = scene.candidates(state.candidateOf), now = list.findIndex((each) => each.rank === state.rank);
       if (list.length > 0) store.set({ rank: list[within(now + by, list.length - 1)]!.rank });
     } else if (state.stage === 'found') {
-      store.set({ labelling: within(state.labelling + by, scene.result.alternatives.length) });
+      store.set({ labeling: within(state.labeling + by, scene.result.alternatives.length) });
     }
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-export const STAGES = ['mesh', 'sets', 'constructed', 'found', 'marks'] as const;
+/** Named as those of `toposcope render --stage`. */
+export const STAGES = ['mesh', 'worksets', 'candidates', 'found', 'marks'] as const;
 export type Stage = (typeof STAGES)[number];
 
 export interface State {
@@ -17,7 +18,7 @@ export interface State {
   rank: number;
   allCandidates: boolean;
   /** 0: the best labelling; i: the i-th alternative. */
-  labelling: number;
+  labeling: number;
   /** null: as the stage has it. */
   edges: boolean | null;
   labels: boolean;
@@ -30,7 +31,7 @@ export interface State {
 export function initialState(): State {
   return {
     stage: 'found', feature: null, relation: null, face: null, hiddenTypes: new Set(), set: null, candidateOf: null, rank: 1,
-    allCandidates: true, labelling: 0, edges: null, labels: true, orthographic: false, markOf: null, group: 0,
+    allCandidates: true, labeling: 0, edges: null, labels: true, orthographic: false, markOf: null, group: 0,
   };
 }
 

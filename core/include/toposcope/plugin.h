@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <span>
 #include <string>
 
 #include "toposcope/filters.h"
@@ -18,8 +19,8 @@
 
 namespace toposcope {
 
-inline constexpr std::uint32_t abi_major = 2;  ///< differs: refused
-inline constexpr std::uint32_t abi_minor = 2;  ///< a plugin built against a newer minor is refused
+inline constexpr std::uint32_t abi_major = 3;  ///< differs: refused
+inline constexpr std::uint32_t abi_minor = 0;  ///< a plugin built against a newer minor is refused
 
 #define TOPOSCOPE_STRINGIFY_(x) #x
 #define TOPOSCOPE_STRINGIFY(x) TOPOSCOPE_STRINGIFY_(x)
@@ -56,32 +57,35 @@ static_assert(sizeof(Vec3) == 3 * sizeof(double) && alignof(Vec3) == alignof(dou
 struct ProvidedName {
   const char* name;        ///< '#' stands for 1, 2, 3, ...: `length_#`
   std::int32_t dimension;  ///< power of length (0: a number or an angle)
-  const char* meaning;
+  const char* meaning;     ///< one line
 };
 
-/// What `toposcope_plugin()` returns. Plain C layout; grows at the end only.
+/// What `toposcope_plugin()` returns. Plain C layout; grows at the end only. No pointer to text is null.
 struct PluginDescriptor {
-  std::uint32_t struct_size;
-  std::uint32_t major;
-  std::uint32_t minor;
-  const char* fingerprint;
-  const char* kind;           ///< "worksets", "shapes", "relations", "labelers", "filters"
-  const char* id;             ///< lower-case words joined by '-', unique over all kinds
-  const char* version;        ///< of the plugin, x.y.z
-  const char* summary;        ///< one line
-  const char* citation;       ///< paper or section; may be ""
-  const char* unit;           ///< relations: unit of the residual, "deg" or "length"; else ""
-  std::uint32_t min_arity;    ///< shapes: working sets per feature; relations: features; else 0
-  std::uint32_t max_arity;    ///< 0: no upper bound
-  std::uint32_t ordered;      ///< relations: 1 where it matters which feature comes first, else 0
-  const OptionSpec* options;  ///< set in the pipeline
-  std::size_t option_count;
-  const OptionSpec* arguments;  ///< set in the model: `segments` of a line group, `max` of a distance
-  std::size_t argument_count;
+  std::uint32_t struct_size;     ///< bytes
+  std::uint32_t major;           ///< `abi_major` of the headers that the plugin was built with
+  std::uint32_t minor;           ///< `abi_minor` likewise
+  const char* fingerprint;       ///< `abi_fingerprint` likewise
+  const char* kind;              ///< "worksets", "shapes", "relations", "labelers", "filters"
+  const char* id;                ///< lower-case words joined by '-', unique over all kinds
+  const char* version;           ///< of the plugin, x.y.z
+  const char* summary;           ///< one line
+  const char* citation;          ///< paper or section; may be ""
+  const char* unit;              ///< relations: unit of the residual, "deg" or "length"; else ""
+  std::uint32_t min_arity;       ///< shapes: working sets per feature; relations: features; else 0
+  std::uint32_t max_arity;       ///< 0: no upper bound
+  std::uint32_t ordered;         ///< relations: 1 where it matters which feature comes first, else 0
+  std::int32_t dimension;        ///< shapes: 0 point, 1 line, 2 surface, 3 volume; else -1
+  const OptionSpec* options;     ///< set in the pipeline
+  std::size_t option_count;      ///< rows of `options`
+  const OptionSpec* arguments;   ///< set in the model: `segments` of a line group, `max` of a distance
+  std::size_t argument_count;    ///< rows of `arguments`
   const ProvidedName* provides;  ///< working-set types, measures
-  std::size_t provided_count;
-  /// Returns the plugin's object (a pointer to the kind's base class) or null with the reason in `error`.
+  std::size_t provided_count;    ///< rows of `provides`
+  /// Returns the plugin's object (a pointer to the kind's base class) or null with the reason in `error`. Lets no
+  /// exception out. `options` are checked, one value per row of the table, and live no longer than the call.
   void* (*create)(const Options* options, std::string* error);
+  /// Deletes what `create` returned.
   void (*destroy)(void* object);
   const char* programs;  ///< that must be on the PATH for the plugin to run, separated by spaces; each is also the name
                          ///< of its Debian package
@@ -128,20 +132,24 @@ void destroy(void* object) {
 }
 }  // namespace detail
 
-/// The author's part of a descriptor.
+/// The author's part of a descriptor; its members mean what the descriptor's do. Tables and texts must live as long as
+/// the library: constants at namespace scope. What is wrong is an error of the build, which writes the manifest from
+/// it: an id, version or summary that is none; a shape without min_arity of at least 1 or without dimension; a relation
+/// without min_arity or unit; a working-set classifier that provides no type; a default outside of its range.
 struct PluginInfo {
-  const char* id;
-  const char* version;
-  const char* summary;
-  const char* citation = "";
-  const char* unit = "";
-  std::uint32_t min_arity = 0;
-  std::uint32_t max_arity = 0;
-  bool ordered = false;
-  std::span<const OptionSpec> options = {};
-  std::span<const OptionSpec> arguments = {};
-  std::span<const ProvidedName> provides = {};
-  const char* programs = "";
+  const char* id;                               ///< lower-case words joined by '-'
+  const char* version;                          ///< x.y.z
+  const char* summary;                          ///< one line
+  const char* citation = "";                    ///< paper or section
+  const char* unit = "";                        ///< relations: of the residual, "deg" or "length"
+  std::uint32_t min_arity = 0;                  ///< shapes: working sets per feature; relations: features
+  std::uint32_t max_arity = 0;                  ///< 0: no upper bound
+  bool ordered = false;                         ///< relations: whether it matters which feature comes first
+  std::int32_t dimension = -1;                  ///< shapes: 0 point, 1 line, 2 surface, 3 volume
+  std::span<const OptionSpec> options = {};     ///< set in the pipeline
+  std::span<const OptionSpec> arguments = {};   ///< set in the model
+  std::span<const ProvidedName> provides = {};  ///< working-set types, measures
+  const char* programs = "";                    ///< that must be on the PATH, separated by spaces
 };
 
 template <class Base, class Plugin>
@@ -159,6 +167,7 @@ PluginDescriptor describe(const PluginInfo& info) {
           info.min_arity,
           info.max_arity,
           info.ordered ? 1U : 0U,
+          info.dimension,
           info.options.data(),
           info.options.size(),
           info.arguments.data(),

@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_scheduler_observer.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -25,6 +26,12 @@ using Clock = std::chrono::steady_clock;
 
 unsigned machine_threads() {
   return static_cast<unsigned>(std::max(1, tbb::info::default_concurrency()));
+}
+
+std::uint64_t machine_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  constexpr std::uint64_t unknown = std::uint64_t{4} << 30;
+  return pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) : unknown;
 }
 
 /// The failure that a plain loop would have met: that of the lowest chunk. Chunks above a failed one are skipped,
@@ -131,6 +138,10 @@ bool RunContext::cancelled() const {
 
 std::uint64_t RunContext::seed() const {
   return state_->settings.seed;
+}
+
+std::uint64_t RunContext::memory_budget() const {
+  return state_->settings.memory_budget.value_or(machine_memory() / 2);
 }
 
 unsigned RunContext::threads() const {

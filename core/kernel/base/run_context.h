@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,7 +14,8 @@ namespace toposcope {
 struct RunSettings {
   unsigned threads = 0;  ///< 0: as many as the machine has
   std::uint64_t seed = 1;
-  std::optional<double> time_limit_s = {};  ///< from the making of the context; then cancelled() is true
+  std::optional<double> time_limit_s = {};          ///< from the making of the context; then cancelled() is true
+  std::optional<std::uint64_t> memory_budget = {};  ///< bytes; by default half of the machine's memory
   /// Called by one thread at a time; may be empty. Must not call the context's log or progress.
   std::function<void(LogLevel, std::string_view)> log = {};
   std::function<void(double)> progress = {};
@@ -38,6 +40,7 @@ class RunContext final : public Context {
   /// If chunks throw, the exception of the first of them (by index) comes out, as it would in a plain loop.
   void parallel_for(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t first, std::size_t last)>& body) override;
+  std::uint64_t memory_budget() const override;
 
  private:
   struct State;

@@ -117,6 +117,7 @@ Mesh::Mesh(TriangleSoup soup, const std::string& name, Context* context) : soup_
   view_.face_offsets = faces_.offsets;
   view_.faces = faces_.entries;
   view_.mean_edge = rings.mean_edge;
+  view_.input_vertices = soup_.input_vertices;
 }
 
 }  // namespace toposcope

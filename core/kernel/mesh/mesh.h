@@ -15,6 +15,8 @@ struct TriangleSoup {
   /// For each triangle the face of the input that it came from: a polygon makes several triangles.
   std::vector<Index> face_origin;
   Index input_faces = 0;  ///< number of faces in the input, `face_origin` is below it
+  /// For each position the vertex of the mesh that was read, or `no_vertex`; empty: all are, by number.
+  std::vector<Index> input_vertices = {};
 };
 
 /// A checked mesh with adjacency. Immutable.

@@ -3,6 +3,7 @@
 
 #include "base/nearest_name.h"
 #include "model/model_reading.h"
+#include "model/model_words.h"
 #include "plugin/option_check.h"
 
 namespace toposcope {
@@ -27,6 +28,7 @@ class FeatureReader {
     read_worksets(node["worksets"], feature.worksets);
     if (node["second_look"]) read_worksets(node["second_look"], feature.second_look);
     const PluginManifest* shape = read_shape(node["shape"], feature);
+    if (shape) check_dimension(node["realises"], *shape, feature);
     if (node["ranges"])
       for (const auto& range : node["ranges"]) read_range(range.first, range.second, shape, feature);
     if (const YAML::Node error = node["max_fit_error"]) read_max_fit_error(error, feature);
@@ -105,6 +107,16 @@ class FeatureReader {
         reading_.add(id, "feature '" + feature.name + "' gives " + owner + " " + std::to_string(types->size()) +
                              " working sets; it " + arity_in_words(shape->min_arity, shape->max_arity));
     return shape;
+  }
+
+  /// A surface does not realise a line.
+  void check_dimension(const YAML::Node& node, const PluginManifest& shape, const ModelFeature& feature) {
+    const auto object = index_of(abstract_.objects, feature.realises);
+    if (!object || abstract_.objects[*object].dimension == shape.dimension) return;
+    reading_.add(node, "feature '" + feature.name + "' realises '" + feature.realises + "', which is a " +
+                           object_kind(abstract_.objects[*object].dimension) + ", by shape '" + shape.id +
+                           "', which is a " + object_kind(shape.dimension) +
+                           "; name an object of that dimension, or another shape");
   }
 
   void read_range(const YAML::Node& name, const YAML::Node& node, const PluginManifest* shape, ModelFeature& feature) {

@@ -4,131 +4,170 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
 
 #include "pipeline/same_shape.h"
+#include "probability/likelihood.h"
 #include "toposcope/geometry/point_sets.h"
 
 namespace toposcope {
 namespace {
 
-void count(CandidateCount& count, std::span<const Fate> fates) {
-  count.groups += fates.size();
-  for (Fate fate : fates) switch (fate) {
-      case Fate::boxed_out:
+void add(std::span<const GroupStatus> statuses, CandidateCount& count) {
+  count.groups += statuses.size();
+  for (const GroupStatus status : statuses) switch (status) {
+      case GroupStatus::boxed_out:
         ++count.boxed_out;
         break;
-      case Fate::unusable:
+      case GroupStatus::unusable:
         ++count.unusable;
         break;
-      case Fate::out_of_range:
+      case GroupStatus::out_of_range:
         ++count.out_of_range;
         break;
-      case Fate::poor_fit:
+      case GroupStatus::poor_fit:
         ++count.poor_fit;
         break;
-      case Fate::fitted:
+      case GroupStatus::fitted:
         ++count.kept;
         break;
     }
 }
 
 /// Half of the greatest error that the model allows is a typical one; where it says nothing, the pipeline does.
-double fit_error_sd(const ModelFeature& feature, const MeshView& mesh, const Box& worksets,
+double fit_error_sd(const ModelFeature& feature, const MeshView& mesh, const Box& working_sets,
                     const ProbabilityModel& probability) {
   if (feature.max_fit_error)
-    return positive_on_mesh(*feature.max_fit_error, {mesh.box, worksets}, feature.where, "max_fit_error") / 2;
+    return positive_on_mesh(*feature.max_fit_error, {mesh.box, working_sets}, feature.where, "max_fit_error") / 2;
   return probability.fit_error_scale * mesh.mean_edge;
 }
 
-/// A candidate there was, or behind them a group that may become one.
+/// A candidate there was, or a group that may become one.
 struct Choice {
-  double cost;  ///< log of the number of choices less the evidence
-  std::size_t place;
+  double cost;         ///< log of the number of choices less the evidence
+  std::size_t number;  ///< the candidates there were come first, then the groups
   const FittedShape* shape;
   std::span<const Index> sets;
-  bool operator<(const Choice& other) const { return cost != other.cost ? cost < other.cost : place < other.place; }
+  bool operator<(const Choice& other) const { return cost != other.cost ? cost < other.cost : number < other.number; }
 };
 
-/// Of the groups from `first` on, those in the same places with the same shape become one choice, the best: it gets the
-/// sum of their likelihoods. Nested sets make many such groups, none of which would stand out by itself.
-/// \param choices  ascending
-void join_levels(std::vector<Choice>& choices, std::size_t first, const ShapeFitter& fitter, double same,
-                 const BitMatrix& overlap) {
-  std::vector<Choice> joined;
-  for (const Choice& choice : choices) {
-    const auto like = std::find_if(joined.begin(), joined.end(), [&](const Choice& other) {
-      return choice.place >= first && same_places(overlap, choice.sets, other.sets) &&
-             same_shape(fitter, *choice.shape, *other.shape, same);
-    });
-    if (like == joined.end())
-      joined.push_back(choice);
-    else
-      like->cost -= std::log1p(std::exp(like->cost - choice.cost));
-  }
-  std::sort(joined.begin(), joined.end());
-  choices = std::move(joined);
-}
+/// Chooses among the fits of one job for each of its features.
+class Chooser {
+ public:
+  Chooser(const FitJob& job, const GroupFits& fits, const ModelRun& run, const MeasuredWorkingSets& sets,
+          ConstructedFeatures& features)
+      : job_(job),
+        fits_(fits),
+        run_(run),
+        sets_(sets),
+        features_(features),
+        constructed_(fits.groups.size(), not_constructed) {}
 
-}  // namespace
-
-void choose_candidates(const FitJob& job, const WorkingSetGroups& groups, const GroupFits& fits,
-                       const FitGround& ground, const Choosing& choosing, ConstructedFeatures& out) {
-  constexpr Index unmade = std::numeric_limits<Index>::max();
-  std::vector<Index> made(groups.size(), unmade);  // into out.all
-  std::vector<Choice> choices;
-  GroupPoints at;
-  for (std::size_t i = 0; i < job.features.size(); ++i) {
-    const ModelFeature& feature = ground.model.features[job.features[i]];
-    FeatureCandidates& candidates = out.of_feature[job.features[i]];
-    count(candidates.count, fits.fates[i]);
+  /// \param i  of the job's features
+  void choose(std::size_t i) {
+    FeatureCandidates& candidates = features_.of_feature[job_.features[i]];
     const FeatureCandidates old = candidates;
     const std::size_t before = old.constructed.size();
-    const auto fitted = static_cast<double>(std::count(fits.fates[i].begin(), fits.fates[i].end(), Fate::fitted));
-    const double tried = static_cast<double>(std::max<std::size_t>(1, groups.size()));
-    const double ways =
-        std::max(1.0, fitted * (choosing.chosen_from ? static_cast<double>(*choosing.chosen_from) / tried : 1));
-    choices.clear();
-    for (std::size_t c = 0; c < before; ++c) {
-      const ConstructedFeature& constructed = out.all[old.constructed[c]];
-      choices.push_back({std::log(old.ways[c]) - old.evidence[c], c, &constructed.shape, constructed.sets});
-    }
-    for (Index g = 0; g < groups.size(); ++g) {
-      if (fits.fates[i][g] != Fate::fitted) continue;
-      const FittedShape& shape = fits.shapes[g];
-      const double evidence = fit_evidence(choosing.probability, shape,
-                                           fit_error_sd(feature, ground.mesh, fits.boxes[g], choosing.probability));
-      choices.push_back({std::log(ways) - evidence, before + g, &shape, groups[g]});
-    }
+    const double ways = ways_of(i);
+    std::vector<Choice> choices = choices_of(i, old, ways);
     std::sort(choices.begin(), choices.end());
     const std::size_t all = choices.size();
-    if (choosing.chosen_from) join_levels(choices, before, *job.fitter, ground.mesh.mean_edge, choosing.overlap);
-    choices.resize(std::min(choices.size(), choosing.probability.max_candidates));
+    if (job_.second_look) join_alike(choices, before);
+    choices.resize(std::min(choices.size(), run_.stations.probability.max_candidates));
+    add(fits_.status[i], candidates.count);
     candidates.count.beaten += all - choices.size();
     candidates.count.kept -= all - choices.size();
     candidates.constructed.clear();
     candidates.evidence.clear();
     candidates.ways.clear();
     for (const Choice& choice : choices) {
-      const std::size_t place = choice.place;
-      candidates.ways.push_back(place < before ? old.ways[place] : ways);
+      const bool is_old = choice.number < before;
+      candidates.ways.push_back(is_old ? old.ways[choice.number] : ways);
       candidates.evidence.push_back(std::log(candidates.ways.back()) - choice.cost);
-      if (place < before) {
-        candidates.constructed.push_back(old.constructed[place]);
-        continue;
-      }
-      const Index g = static_cast<Index>(place - before);
-      if (made[g] == unmade) {
-        made[g] = static_cast<Index>(out.all.size());
-        ConstructedFeature& constructed = out.all.emplace_back();
-        constructed.sets.assign(groups[g].begin(), groups[g].end());
-        constructed.shape = fits.shapes[g];
-        at.gather(ground.mesh, ground.of_vertices, ground.sets, groups[g]);
-        constructed.points = at.points;
-        constructed.box = groups.arity() == 1 ? fits.boxes[g] : oriented_box(constructed.points);
-      }
-      candidates.constructed.push_back(made[g]);
+      candidates.constructed.push_back(is_old ? old.constructed[choice.number] : constructed(choice.number - before));
     }
   }
+
+ private:
+  static constexpr Index not_constructed = std::numeric_limits<Index>::max();
+
+  /// How many groups there would be to choose from, had all been tried.
+  double ways_of(std::size_t i) const {
+    const auto fitted =
+        static_cast<double>(std::count(fits_.status[i].begin(), fits_.status[i].end(), GroupStatus::fitted));
+    const double tried = static_cast<double>(std::max<std::size_t>(1, fits_.groups.size()));
+    return std::max(1.0, fitted * (static_cast<double>(fits_.groups.chosen_from()) / tried));
+  }
+
+  std::vector<Choice> choices_of(std::size_t i, const FeatureCandidates& old, double ways) const {
+    const ProbabilityModel& probability = run_.stations.probability;
+    const ModelFeature& feature = run_.model.features[job_.features[i]];
+    std::vector<Choice> choices;
+    for (std::size_t c = 0; c < old.constructed.size(); ++c) {
+      const ConstructedFeature& each = features_.all[old.constructed[c]];
+      choices.push_back({std::log(old.ways[c]) - old.evidence[c], c, &each.shape, each.sets});
+    }
+    for (std::size_t g = 0; g < fits_.groups.size(); ++g) {
+      if (fits_.status[i][g] != GroupStatus::fitted) continue;
+      const FittedShape& shape = fits_.shapes[g];
+      const double evidence =
+          fit_evidence(probability, shape, fit_error_sd(feature, run_.mesh, fits_.boxes[g], probability));
+      choices.push_back({std::log(ways) - evidence, old.constructed.size() + g, &shape, fits_.groups[g]});
+    }
+    return choices;
+  }
+
+  /// Of the groups, numbered from `first` on, those whose sets overlap and whose shape is the same become one choice,
+  /// the best: it gets the sum of their likelihoods. Nested sets make many such groups, none of which would stand out
+  /// by itself.
+  /// \param choices  ascending
+  void join_alike(std::vector<Choice>& choices, std::size_t first) const {
+    const ShapeFitter& fitter = *run_.stations.features[job_.features.front()].fitter;
+    std::vector<Choice> joined;
+    for (const Choice& choice : choices) {
+      const auto like = std::find_if(joined.begin(), joined.end(), [&](const Choice& other) {
+        return choice.number >= first && overlap_pairwise(sets_.overlap, choice.sets, other.sets) &&
+               same_shape(fitter, *choice.shape, *other.shape, run_.mesh.mean_edge);
+      });
+      if (like == joined.end())
+        joined.push_back(choice);
+      else
+        like->cost -= std::log1p(std::exp(like->cost - choice.cost));
+    }
+    std::sort(joined.begin(), joined.end());
+    choices = std::move(joined);
+  }
+
+  /// The constructed feature of a group, made when the first feature of the job wants it.
+  Index constructed(std::size_t g) {
+    if (constructed_[g] != not_constructed) return constructed_[g];
+    constructed_[g] = static_cast<Index>(features_.all.size());
+    ConstructedFeature& made = features_.all.emplace_back();
+    made.sets.assign(fits_.groups[g].begin(), fits_.groups[g].end());
+    made.shape = fits_.shapes[g];
+    points_.gather(run_.mesh, sets_, fits_.groups[g]);
+    made.points = points_.points;
+    made.vertices = points_.vertices;
+    made.box = fits_.groups.arity() == 1 ? fits_.boxes[g] : oriented_box(made.points);
+    return constructed_[g];
+  }
+
+  const FitJob& job_;
+  const GroupFits& fits_;
+  const ModelRun& run_;
+  const MeasuredWorkingSets& sets_;
+  ConstructedFeatures& features_;
+  std::vector<Index> constructed_;  ///< per group, into `features_.all`
+  GroupPoints points_;
+};
+
+}  // namespace
+
+void choose_candidates(const FitJob& job, const GroupFits& fits, const ModelRun& run, const MeasuredWorkingSets& sets,
+                       ConstructedFeatures& features) {
+  Chooser chooser(job, fits, run, sets, features);
+  for (std::size_t i = 0; i < job.features.size(); ++i) chooser.choose(i);
 }
 
 }  // namespace toposcope

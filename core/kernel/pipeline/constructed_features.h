@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
+#include <cstddef>
 #include <vector>
 
-#include "model/model.h"
-#include "pipeline/stations.h"
-#include "pipeline/working_set_groups.h"
-#include "pipeline/working_sets.h"
 #include "toposcope/shapes.h"
 
 namespace toposcope {
@@ -17,8 +13,9 @@ namespace toposcope {
 struct ConstructedFeature {
   std::vector<Index> sets;  ///< working sets, in the order of the feature's types
   FittedShape shape;
-  Box box;                   ///< bb(w)
-  std::vector<Vec3> points;  ///< of all sets, one after the other
+  Box box;                      ///< bb(w)
+  std::vector<Vec3> points;     ///< of all sets, one after the other
+  std::vector<Index> vertices;  ///< of the mesh, one per point
 };
 
 /// How many groups of working sets a feature lost at each condition.
@@ -35,28 +32,14 @@ struct CandidateCount {
 /// T(f) for one model feature, best evidence first once each has paid for the choice among its look's groups.
 struct FeatureCandidates {
   std::vector<Index> constructed;  ///< into ConstructedFeatures::all
-  std::vector<double> evidence;    ///< log likelihood ratio of each
+  std::vector<double> evidence;    ///< log likelihood ratio of each, in nats
   std::vector<double> ways;        ///< of each: how many candidates the look that found it had to choose from
   CandidateCount count;
 };
 
 struct ConstructedFeatures {
-  std::vector<Box> set_boxes;  ///< of the working sets
-  VertexMeasures of_vertices;
   std::vector<ConstructedFeature> all;
   std::vector<FeatureCandidates> of_feature;  ///< one per model feature
 };
-
-/// Fits every shape that the model asks for to every group of working sets that may meet its ranges, in parallel, and
-/// keeps for each feature the candidates of greatest evidence.
-ConstructedFeatures construct_features(const MeshView& mesh, const Model& model, const WorkingSets& sets,
-                                       const BitMatrix& overlap, const Stations& stations, Context& context);
-
-/// Fits a feature's shape to more groups, of the types of its second look; the best of old and new candidates stay.
-/// Of those that lie in the same places with the same shape one stays and stands for them all.
-/// \param chosen_from  how many groups these were chosen from
-void construct_more(const MeshView& mesh, const Model& model, const WorkingSets& sets, Index feature,
-                    const WorkingSetGroups& groups, std::size_t chosen_from, const BitMatrix& overlap,
-                    const Stations& stations, Context& context, ConstructedFeatures& features);
 
 }  // namespace toposcope

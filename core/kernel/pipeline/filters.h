@@ -13,13 +13,14 @@ namespace toposcope {
 /// A mesh after the filters, and where its faces come from.
 struct PreparedMesh {
   const Mesh* input = nullptr;
-  std::optional<Mesh> filtered;  ///< absent when no filter changed anything
-  std::vector<Index> origin;     ///< per face of the filtered mesh, the triangle of the input
+  /// Absent when no filter changed anything; its view's `input_vertices` are the input's.
+  std::optional<Mesh> filtered;
+  std::vector<Index> origin;  ///< per face of the filtered mesh, the triangle of the input
   const MeshView& view() const { return filtered ? filtered->view() : input->view(); }
 };
 
 /// Applies the filters one after the other. \param mesh  must outlive the result
 /// \throw PluginError  a filter failed or does not say where its faces come from; MeshError  it left no usable mesh
-PreparedMesh apply_filters(const Mesh& mesh, std::span<const Stations::Filter> filters, Context& context);
+PreparedMesh apply_filters(const Mesh& mesh, std::span<const FilterStation> filters, Context& context);
 
 }  // namespace toposcope

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
+#include "plugin/guard.h"
 #include "toposcope/geometry/point_sets.h"
 
 namespace toposcope {
@@ -32,68 +35,104 @@ bool finite(const FittedShape& shape) {
   return std::all_of(std::begin(numbers), std::end(numbers), [](double x) { return std::isfinite(x); });
 }
 
-/// What becomes of a group for one feature, as far as boxes tell.
-Fate fate_before(const ModelFeature& feature, const FitJob& job, const ExpressionBoxes& boxes,
-                 std::span<const Box> set_boxes) {
+/// As far as boxes tell.
+GroupStatus status_by_boxes(const ModelFeature& feature, const FeatureStation& station, const ExpressionBoxes& boxes,
+                            std::span<const Box> set_boxes) {
   for (const Range& range : feature.ranges) {
     const Bounds bounds = evaluate(range, boxes);
-    const Interval possible = job.fitter->bounds(range.measure, set_boxes, Options(*job.arguments));
-    if (possible.high <= bounds.low || possible.low >= bounds.high) return Fate::boxed_out;
+    const Interval possible = station.fitter->bounds(range.measure, set_boxes, Options(station.arguments));
+    if (possible.high <= bounds.low || possible.low >= bounds.high) return GroupStatus::boxed_out;
   }
-  return Fate::fitted;
+  return GroupStatus::fitted;
 }
 
-/// The same once it is fitted.
-Fate fate_after(const ModelFeature& feature, const ExpressionBoxes& boxes, const FittedShape& shape) {
-  if (!shape.summary.usable() || !finite(shape)) return Fate::unusable;
+/// Once it is fitted.
+GroupStatus status_by_fit(const ModelFeature& feature, const ExpressionBoxes& boxes, const FittedShape& shape) {
+  if (!shape.summary.usable() || !finite(shape)) return GroupStatus::unusable;
   for (const Range& range : feature.ranges) {
     const Bounds bounds = evaluate(range, boxes);
     const Measure* measure = shape.measure(range.measure);
-    if (!measure || !(measure->value > bounds.low && measure->value < bounds.high)) return Fate::out_of_range;
+    if (!measure || !(measure->value > bounds.low && measure->value < bounds.high)) return GroupStatus::out_of_range;
   }
-  if (feature.max_fit_error && shape.rms > feature.max_fit_error->evaluate(boxes)) return Fate::poor_fit;
-  return Fate::fitted;
+  if (feature.max_fit_error && shape.rms > feature.max_fit_error->evaluate(boxes)) return GroupStatus::poor_fit;
+  return GroupStatus::fitted;
 }
+
+/// Fits group after group of a job; one per thread.
+class GroupFitter {
+ public:
+  GroupFitter(const FitJob& job, const ModelRun& run, const MeasuredWorkingSets& sets, GroupFits& fits)
+      : job_(job),
+        run_(run),
+        sets_(sets),
+        fits_(fits),
+        station_(run.stations.features[job.features.front()]),
+        needs_box_(std::any_of(job.features.begin(), job.features.end(),
+                               [&](Index f) { return uses_working_set_box(run.model.features[f]); })) {}
+
+  void fit(std::size_t g) {
+    const MeshView& mesh = run_.mesh;
+    const std::span<const Index> group = fits_.groups[g];
+    set_boxes_.clear();
+    for (Index s : group) set_boxes_.push_back(sets_.boxes[s]);
+    Box& box = fits_.boxes[g] = set_boxes_.front();
+    const bool joint_box = group.size() > 1 && needs_box_;
+    if (joint_box) {
+      points_.gather(mesh, sets_, group);
+      box = oriented_box(points_.points);
+    }
+    bool wanted = false;
+    for (std::size_t i = 0; i < job_.features.size(); ++i) {
+      fits_.status[i][g] = status_by_boxes(feature(i), station_, {mesh.box, box}, set_boxes_);
+      wanted = wanted || fits_.status[i][g] == GroupStatus::fitted;
+    }
+    if (!wanted) return;
+    if (!joint_box) points_.gather(mesh, sets_, group);
+    if (!joint_box && group.size() > 1) box = principal_box(points_.points);
+    const FitInput input{points_.points,
+                         points_.areas,
+                         points_.offsets,
+                         set_boxes_,
+                         box,
+                         mesh.box,
+                         mesh.mean_edge,
+                         points_.integrated_mean_curvature,
+                         &mesh,
+                         points_.vertices};
+    fits_.shapes[g] = station_.fitter->fit(input, Options(station_.arguments), run_.context);
+    for (std::size_t i = 0; i < job_.features.size(); ++i)
+      if (GroupStatus& status = fits_.status[i][g]; status == GroupStatus::fitted)
+        status = status_by_fit(feature(i), {mesh.box, box}, fits_.shapes[g]);
+  }
+
+ private:
+  const ModelFeature& feature(std::size_t i) const { return run_.model.features[job_.features[i]]; }
+
+  const FitJob& job_;
+  const ModelRun& run_;
+  const MeasuredWorkingSets& sets_;
+  GroupFits& fits_;
+  const FeatureStation& station_;  ///< the same shape and arguments for all features of the job
+  bool needs_box_;                 ///< bb(w) itself, not a stand-in
+  GroupPoints points_;
+  std::vector<Box> set_boxes_;
+};
 
 }  // namespace
 
-GroupFits fit_groups(const FitJob& job, const WorkingSetGroups& groups, const FitGround& ground, Context& context) {
-  const MeshView& mesh = ground.mesh;
-  GroupFits result;
-  result.shapes.resize(groups.size());
-  result.boxes.resize(groups.size());
-  result.fates.assign(job.features.size(), std::vector<Fate>(groups.size(), Fate::boxed_out));
-  const bool needs_box = std::any_of(job.features.begin(), job.features.end(),
-                                     [&](Index f) { return uses_working_set_box(ground.model.features[f]); });
-  context.parallel_for(groups.size(), grain, [&](std::size_t first, std::size_t last) {
-    GroupPoints at;
-    std::vector<Box> boxes_of_group;
-    for (std::size_t g = first; g < last && !context.cancelled(); ++g) {
-      const std::span<const Index> group = groups[g];
-      boxes_of_group.clear();
-      for (Index s : group) boxes_of_group.push_back(ground.set_boxes[s]);
-      Box& box = result.boxes[g] = boxes_of_group.front();
-      const bool joint_box = group.size() > 1 && needs_box;
-      if (joint_box) {
-        at.gather(mesh, ground.of_vertices, ground.sets, group);
-        box = oriented_box(at.points);
-      }
-      bool wanted = false;
-      for (std::size_t i = 0; i < job.features.size(); ++i) {
-        result.fates[i][g] = fate_before(ground.model.features[job.features[i]], job, {mesh.box, box}, boxes_of_group);
-        wanted = wanted || result.fates[i][g] == Fate::fitted;
-      }
-      if (!wanted) continue;
-      if (!joint_box) at.gather(mesh, ground.of_vertices, ground.sets, group);
-      if (!joint_box && group.size() > 1) box = principal_box(at.points);
-      const FitInput input{at.points, at.areas, at.offsets, boxes_of_group, box, mesh.box, mesh.mean_edge, at.bends};
-      result.shapes[g] = job.fitter->fit(input, Options(*job.arguments), context);
-      for (std::size_t i = 0; i < job.features.size(); ++i)
-        if (Fate& fate = result.fates[i][g]; fate == Fate::fitted)
-          fate = fate_after(ground.model.features[job.features[i]], {mesh.box, box}, result.shapes[g]);
-    }
+GroupFits fit_groups(const FitJob& job, WorkingSetGroups groups, const ModelRun& run, const MeasuredWorkingSets& sets) {
+  GroupFits fits{std::move(groups)};
+  const std::size_t count = fits.groups.size();
+  fits.shapes.resize(count);
+  fits.boxes.resize(count);
+  fits.status.assign(job.features.size(), std::vector<GroupStatus>(count, GroupStatus::boxed_out));
+  guard(job.feature(run.model).shape.plugin, [&] {
+    run.context.parallel_for(count, grain, [&](std::size_t first, std::size_t last) {
+      GroupFitter fitter(job, run, sets, fits);
+      for (std::size_t g = first; g < last && !run.context.cancelled(); ++g) fitter.fit(g);
+    });
   });
-  return result;
+  return fits;
 }
 
 }  // namespace toposcope

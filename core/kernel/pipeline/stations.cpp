@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stations.h"
 
+#include <map>
+
 #include "pipeline/pipeline_manifest.h"
-#include "plugin/option_check.h"
 #include "plugin/plugin_host.h"
 #include "probability/probability_options.h"
 
@@ -18,6 +19,48 @@ std::vector<OptionValue> argument_defaults(const PluginManifest& manifest, const
   return values;
 }
 
+/// Makes one object per plugin id, and enters it among the uses when it is first asked for.
+class SharedPlugins {
+ public:
+  SharedPlugins(PluginHost& host, const PipelineManifest& pipeline, std::vector<PluginUse>& uses)
+      : host_(host), pipeline_(pipeline), uses_(uses) {}
+
+  std::shared_ptr<const ShapeFitter> shape(const PluginManifest& manifest) {
+    return once(fitters_, manifest, [&](const auto& options) { return host_.shape(manifest.id, options); });
+  }
+  std::shared_ptr<const RelationTester> relation(const PluginManifest& manifest) {
+    return once(testers_, manifest, [&](const auto& options) { return host_.relation(manifest.id, options); });
+  }
+
+ private:
+  template <class Plugin, class Make>
+  std::shared_ptr<const Plugin> once(std::map<std::string, std::shared_ptr<const Plugin>>& made,
+                                     const PluginManifest& manifest, const Make& make) {
+    std::shared_ptr<const Plugin>& plugin = made[manifest.id];
+    if (!plugin) {
+      const auto options = plugin_options(pipeline_, host_.catalog(), manifest.kind, manifest.id);
+      plugin = make(options);
+      uses_.push_back(use_of(manifest, options));
+    }
+    return plugin;
+  }
+
+  PluginHost& host_;
+  const PipelineManifest& pipeline_;
+  std::vector<PluginUse>& uses_;
+  std::map<std::string, std::shared_ptr<const ShapeFitter>> fitters_;
+  std::map<std::string, std::shared_ptr<const RelationTester>> testers_;
+};
+
+/// \throw UsageError  the feature asks for a type that the classifier does not provide
+void check_types(const ModelFeature& feature, const PluginManifest& worksets, const PipelineManifest& pipeline) {
+  for (const std::vector<std::string>* types : {&feature.worksets, &feature.second_look})
+    for (const std::string& type : *types)
+      if (!worksets.find_provided(type))
+        throw UsageError(feature.where.str() + ": feature '" + feature.name + "' asks for working sets of type '" +
+                         type + "', which '" + worksets.id + "' of pipeline '" + pipeline.name + "' does not provide");
+}
+
 }  // namespace
 
 PluginUse use_of(const PluginManifest& manifest, const std::vector<OptionValue>& options) {
@@ -27,58 +70,58 @@ PluginUse use_of(const PluginManifest& manifest, const std::vector<OptionValue>&
   return use;
 }
 
+FilterStation make_filter(PluginHost& host, std::string_view id, std::span<const GivenOption> given,
+                          const std::string& owner) {
+  const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id, owner);
+  return make_filter(host, id, check_options(manifest.options, given, owner + ": filter '" + manifest.id + "'"));
+}
+
+FilterStation make_filter(PluginHost& host, std::string_view id, const std::vector<OptionValue>& options) {
+  const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id);
+  return {manifest.id, host.filter(id, options), use_of(manifest, options)};
+}
+
 Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const Model& model) {
   const PluginCatalog& catalog = host.catalog();
   Stations stations;
   for (const StationPlugin& filter : pipeline.filters) {
-    stations.filters.push_back({filter.plugin, host.filter(filter.plugin, filter.options)});
-    stations.uses.push_back(use_of(catalog.require(PluginKind::filters, filter.plugin), filter.options));
+    stations.filters.push_back(make_filter(host, filter.plugin, filter.options));
+    stations.uses.push_back(stations.filters.back().use);
   }
 
   const PluginManifest& worksets = catalog.require(PluginKind::worksets, pipeline.worksets.plugin);
-  stations.worksets_id = worksets.id;
-  stations.worksets = host.worksets(worksets.id, pipeline.worksets.options);
-  for (const ProvidedRow& type : worksets.provides) stations.workset_types.push_back(type.name);
+  stations.working_sets = {worksets.id, {}, host.worksets(worksets.id, pipeline.worksets.options)};
+  for (const ProvidedRow& type : worksets.provides) stations.working_sets.types.push_back(type.name);
   stations.uses.push_back(use_of(worksets, pipeline.worksets.options));
 
+  SharedPlugins plugins(host, pipeline, stations.uses);
   for (const ModelFeature& feature : model.features) {
-    for (const std::vector<std::string>* types : {&feature.worksets, &feature.second_look})
-      for (const std::string& type : *types)
-        if (!worksets.find_provided(type))
-          throw UsageError(feature.where.str() + ": feature '" + feature.name + "' asks for working sets of type '" +
-                           type + "', which '" + worksets.id + "' of pipeline '" + pipeline.name +
-                           "' does not provide");
-    const PluginManifest& shape = catalog.require(PluginKind::shapes, feature.shape.plugin, feature.shape.where.str());
-    stations.shape_arguments.push_back(check_options(shape.arguments, feature.shape.arguments,
-                                                     feature.shape.where.str() + ": shape '" + shape.id + "'"));
-    if (stations.shapes.contains(shape.id)) continue;
-    const auto options = plugin_options(pipeline, catalog, PluginKind::shapes, shape.id);
-    stations.shapes[shape.id] = host.shape(shape.id, options);
-    stations.uses.push_back(use_of(shape, options));
+    check_types(feature, worksets, pipeline);
+    const std::string where = feature.shape.where.str();
+    const PluginManifest& shape = catalog.require(PluginKind::shapes, feature.shape.plugin, where);
+    FeatureStation& station = stations.features.emplace_back();
+    station.arguments = check_options(shape.arguments, feature.shape.arguments, where + ": shape '" + shape.id + "'");
+    station.fitter = plugins.shape(shape);
   }
   for (const Relationship& relationship : model.relationships) {
-    const PluginManifest& relation =
-        catalog.require(PluginKind::relations, relationship.plugin, relationship.where.str());
-    stations.relation_units.push_back(relation.unit);
-    stations.relation_ordered.push_back(relation.ordered);
-    stations.relation_defaults.push_back(
-        argument_defaults(relation, relationship.where.str() + ": relation '" + relation.id + "'"));
-    if (stations.relations.contains(relation.id)) continue;
-    const auto options = plugin_options(pipeline, catalog, PluginKind::relations, relation.id);
-    stations.relations[relation.id] = host.relation(relation.id, options);
-    stations.uses.push_back(use_of(relation, options));
+    const std::string where = relationship.where.str();
+    const PluginManifest& relation = catalog.require(PluginKind::relations, relationship.plugin, where);
+    RelationshipStation& station = stations.relationships.emplace_back();
+    station.unit = relation.unit;
+    station.ordered = relation.ordered;
+    station.arguments = relation.arguments;
+    station.defaults = argument_defaults(relation, where + ": relation '" + relation.id + "'");
+    station.tester = plugins.relation(relation);
   }
 
-  const PluginManifest& labeler = catalog.require(PluginKind::labelers, pipeline.labeler.plugin);
-  stations.labeler_id = labeler.id;
-  stations.labeler = host.labeler(labeler.id, pipeline.labeler.options);
-  stations.uses.push_back(use_of(labeler, pipeline.labeler.options));
-  if (pipeline.marginals) {
-    const PluginManifest& marginals = catalog.require(PluginKind::labelers, pipeline.marginals->plugin);
-    stations.marginals_id = marginals.id;
-    stations.marginals = host.labeler(marginals.id, pipeline.marginals->options);
-    stations.uses.push_back(use_of(marginals, pipeline.marginals->options));
-  }
+  const auto labeler = [&](const StationPlugin& chosen) {
+    const PluginManifest& manifest = catalog.require(PluginKind::labelers, chosen.plugin);
+    LabelerStation station{manifest.id, host.labeler(manifest.id, chosen.options)};
+    stations.uses.push_back(use_of(manifest, chosen.options));
+    return station;
+  };
+  stations.labeler = labeler(pipeline.labeler);
+  if (pipeline.marginals) stations.marginals = labeler(*pipeline.marginals);
   stations.probability = probability_model(Options(pipeline.probability));
   return stations;
 }

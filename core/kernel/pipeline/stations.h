@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/model.h"
+#include "plugin/manifest.h"
+#include "plugin/option_check.h"
 #include "probability/likelihood.h"
 #include "toposcope/filters.h"
 #include "toposcope/labeling.h"
+#include "toposcope/options.h"
 #include "toposcope/relations.h"
 #include "toposcope/shapes.h"
 #include "toposcope/worksets.h"
@@ -18,7 +24,6 @@ namespace toposcope {
 
 class PluginHost;
 struct PipelineManifest;
-struct PluginManifest;
 
 /// A plugin at work in a run, as result.json reports it.
 struct PluginUse {
@@ -26,37 +31,60 @@ struct PluginUse {
   std::vector<std::pair<std::string, std::string>> options;
 };
 
-/// The plugins that serve a model's run, created with their options.
-struct Stations {
-  struct Filter {
-    std::string id;
-    std::shared_ptr<const MeshFilter> plugin;
-  };
-  std::vector<Filter> filters;
-  std::string worksets_id;
-  std::vector<std::string> workset_types;
-  std::shared_ptr<const WorkingSetClassifier> worksets;
-  std::map<std::string, std::shared_ptr<const ShapeFitter>> shapes;
-  std::map<std::string, std::shared_ptr<const RelationTester>> relations;
-  std::string labeler_id;
-  std::shared_ptr<const Labeler> labeler;
-  std::string marginals_id;                  ///< empty: the labeler's own probabilities are reported
-  std::shared_ptr<const Labeler> marginals;  ///< null with it
-
-  ProbabilityModel probability{};
-
-  /// One entry per model feature / relationship: the checked values of its shape's arguments, and the manifest defaults
-  /// of its relation's arguments (the model's expressions are evaluated per mesh).
-  std::vector<std::vector<OptionValue>> shape_arguments;
-  std::vector<std::vector<OptionValue>> relation_defaults;
-  std::vector<std::string> relation_units;  ///< of the residual, per relationship
-  std::vector<bool> relation_ordered;       ///< per relationship: it matters which feature comes first
-
-  std::vector<PluginUse> uses;
-};
-
 /// \param options  checked
 PluginUse use_of(const PluginManifest& manifest, const std::vector<OptionValue>& options);
+
+struct FilterStation {
+  std::string id;
+  std::shared_ptr<const MeshFilter> plugin;
+  PluginUse use = {};
+};
+
+struct WorkingSetStation {
+  std::string id;
+  std::vector<std::string> types;  ///< that the plugin provides
+  std::shared_ptr<const WorkingSetClassifier> plugin;
+};
+
+/// What fits the shape of one model feature.
+struct FeatureStation {
+  std::shared_ptr<const ShapeFitter> fitter;
+  std::vector<OptionValue> arguments;  ///< what the model says of the shape, checked
+};
+
+/// What tests one relationship of the model.
+struct RelationshipStation {
+  std::shared_ptr<const RelationTester> tester;
+  std::vector<OptionValue> defaults;      ///< of the arguments that have one: the model's expressions await the mesh
+  std::string unit;                       ///< of the residual: "deg" or "length"
+  bool ordered = false;                   ///< it matters which feature comes first
+  std::vector<OptionRow> arguments = {};  ///< as the plugin declares them
+};
+
+struct LabelerStation {
+  std::string id;
+  std::shared_ptr<const Labeler> plugin;
+};
+
+/// The plugins that serve a model's run, created with their options.
+struct Stations {
+  std::vector<FilterStation> filters;
+  WorkingSetStation working_sets;
+  std::vector<FeatureStation> features;            ///< one per model feature; the same shape is the same object
+  std::vector<RelationshipStation> relationships;  ///< one per model relationship; likewise
+  LabelerStation labeler;
+  std::optional<LabelerStation> marginals;  ///< nothing: the labeler's own probabilities are reported
+  ProbabilityModel probability{};
+  std::vector<PluginUse> uses;  ///< each plugin once, in the order of the path
+};
+
+/// A filter of options as a user wrote them.
+/// \param owner  for messages: who asks for it
+/// \throw UsageError  unknown filter or option, value out of range; PluginError  it cannot be loaded or made
+FilterStation make_filter(PluginHost& host, std::string_view id, std::span<const GivenOption> given,
+                          const std::string& owner);
+/// The same of options that are checked already.
+FilterStation make_filter(PluginHost& host, std::string_view id, const std::vector<OptionValue>& options);
 
 /// Loads what pipeline and model need. \throw PluginError, UsageError
 Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const Model& model);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/working_set_groups.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "base/errors.h"
-#include "toposcope/geometry/curvature.h"
 #include "toposcope/geometry/point_sets.h"
 
 namespace toposcope {
@@ -14,7 +12,7 @@ constexpr std::size_t max_groups = 1'000'000;
 }
 
 WorkingSetGroups::WorkingSetGroups(const ModelFeature& feature, const std::vector<std::string>& types,
-                                   const WorkingSets& sets, const BitMatrix& overlap, const std::vector<bool>& usable) {
+                                   const MeasuredWorkingSets& sets, const std::vector<bool>& usable) {
   for (const std::string& type : types) {
     std::vector<Index>& candidates = of_type_.emplace_back();
     for (Index s = 0; s < sets.size(); ++s)
@@ -22,7 +20,8 @@ WorkingSetGroups::WorkingSetGroups(const ModelFeature& feature, const std::vecto
   }
   // A type without a set: no group at all.
   if (std::none_of(of_type_.begin(), of_type_.end(), [](const auto& of) { return of.empty(); }))
-    extend(feature, types, overlap);
+    extend(feature, types, sets.overlap);
+  chosen_from_ = size();
 }
 
 void WorkingSetGroups::extend(const ModelFeature& feature, const std::vector<std::string>& types,
@@ -53,17 +52,18 @@ void WorkingSetGroups::keep(const std::vector<std::size_t>& groups) {
   groups_ = std::move(kept);
 }
 
-void GroupPoints::gather(const MeshView& mesh, const VertexMeasures& measures, const WorkingSets& sets,
-                         std::span<const Index> group) {
+void GroupPoints::gather(const MeshView& mesh, const MeasuredWorkingSets& sets, std::span<const Index> group) {
   points.clear();
+  vertices.clear();
   areas.clear();
-  bends.clear();
+  integrated_mean_curvature.clear();
   offsets.assign(1, 0);
   for (Index s : group) {
+    vertices.insert(vertices.end(), sets[s].begin(), sets[s].end());
     for (Index v : sets[s]) {
       points.push_back(mesh.positions[v]);
-      areas.push_back(measures.areas[v]);
-      bends.push_back(measures.bends[v]);
+      areas.push_back(sets.vertex_areas[v]);
+      integrated_mean_curvature.push_back(sets.integrated_mean_curvature[v]);
     }
     offsets.push_back(static_cast<Index>(points.size()));
   }
@@ -82,16 +82,7 @@ Box principal_box(std::span<const Vec3> points) {
   return box;
 }
 
-VertexMeasures::VertexMeasures(const MeshView& mesh)
-    : areas(mesh.vertex_count(), 0), bends(mean_curvature_measure(mesh)) {
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const double third =
-        (mesh.positions[b] - mesh.positions[a]).cross(mesh.positions[c] - mesh.positions[a]).norm() / 6;
-    for (Index v : {a, b, c}) areas[v] += third;
-  }
-}
-
-bool same_places(const BitMatrix& overlap, std::span<const Index> a, std::span<const Index> b) {
+bool overlap_pairwise(const BitMatrix& overlap, std::span<const Index> a, std::span<const Index> b) {
   if (a.size() != b.size()) return false;
   bool in_order = true, reversed = true;
   for (std::size_t i = 0; i < a.size(); ++i) {

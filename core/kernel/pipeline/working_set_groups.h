@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "model/model.h"
-#include "pipeline/working_sets.h"
+#include "pipeline/measured_working_sets.h"
 
 namespace toposcope {
 
@@ -16,11 +16,13 @@ class WorkingSetGroups {
   /// \param types   of the group's sets: the feature's worksets or those of its second look
   /// \param usable  per set; empty: all are
   /// \throw UsageError  over a million groups
-  WorkingSetGroups(const ModelFeature& feature, const std::vector<std::string>& types, const WorkingSets& sets,
-                   const BitMatrix& overlap, const std::vector<bool>& usable = {});
+  WorkingSetGroups(const ModelFeature& feature, const std::vector<std::string>& types, const MeasuredWorkingSets& sets,
+                   const std::vector<bool>& usable = {});
 
   /// Keeps these groups alone, ascending.
   void keep(const std::vector<std::size_t>& groups);
+  /// How many there were before `keep`.
+  std::size_t chosen_from() const { return chosen_from_; }
 
   std::size_t arity() const { return of_type_.size(); }
   std::size_t size() const { return groups_.size() / of_type_.size(); }
@@ -34,31 +36,23 @@ class WorkingSetGroups {
   std::vector<std::vector<Index>> of_type_;
   std::vector<Index> group_;
   std::vector<Index> groups_;  ///< one after the other
-};
-
-/// What fits are told of the surface around each vertex.
-struct VertexMeasures {
-  std::vector<double> areas;  ///< a third of the triangles around it
-  std::vector<double> bends;  ///< mean_curvature_measure
-
-  explicit VertexMeasures(const MeshView& mesh);
-  VertexMeasures() = default;
+  std::size_t chosen_from_ = 0;
 };
 
 /// The points of a group of working sets, one set after the other.
 struct GroupPoints {
   std::vector<Vec3> points;
-  std::vector<double> areas, bends;
+  std::vector<Index> vertices;
+  std::vector<double> areas, integrated_mean_curvature;
   std::vector<Index> offsets;
 
-  void gather(const MeshView& mesh, const VertexMeasures& measures, const WorkingSets& sets,
-              std::span<const Index> group);
+  void gather(const MeshView& mesh, const MeasuredWorkingSets& sets, std::span<const Index> group);
 };
 
 /// The box along the principal axes: a stand-in for bb(w) of many groups, of which few are kept.
 Box principal_box(std::span<const Vec3> points);
 
-/// Whether two groups lie in the same places: each set of one overlaps its counterpart of the other, in either order.
-bool same_places(const BitMatrix& overlap, std::span<const Index> a, std::span<const Index> b);
+/// Whether each set of one group overlaps its counterpart of the other, in the same order or the reverse.
+bool overlap_pairwise(const BitMatrix& overlap, std::span<const Index> a, std::span<const Index> b);
 
 }  // namespace toposcope

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "base/errors.h"
+#include "plugin/guard.h"
 #include "toposcope/geometry/large_array.h"
 
 namespace toposcope {
@@ -88,44 +88,20 @@ class Checker {
 
 }  // namespace
 
-WorkingSets classify_mesh(const MeshView& mesh, const WorkingSetClassifier& classifier, const std::string& plugin,
-                          const std::vector<std::string>& types, Context& context) {
+WorkingSets classify_mesh(const MeshView& mesh, const WorkingSetStation& station, Context& context) {
   WorkingSets sets;
-  sets.type_names = types;
-  CopyingSink sink(plugin, sets);
-  classifier.classify(mesh, context, sink);
+  sets.type_names = station.types;
+  CopyingSink sink(station.id, sets);
+  guard(station.id, [&] { station.plugin->classify(mesh, context, sink); });
   // Few chunks: each has a mark per vertex of the mesh.
   const std::size_t chunk = std::max<std::size_t>(16, sets.size() / 8);
   context.parallel_for(sets.size(), chunk, [&](std::size_t first, std::size_t last) {
-    Checker checker(mesh, plugin);
+    Checker checker(mesh, station.id);
     for (std::size_t s = first; s < last; ++s)
       checker.check(std::span(sets.vertices).subspan(sets.offsets[s], sets.offsets[s + 1] - sets.offsets[s]),
                     static_cast<Index>(s));
   });
   return sets;
-}
-
-BitMatrix overlaps(const WorkingSets& sets, Index vertex_count) {
-  // Sets that hold each vertex, in compressed rows.
-  std::vector<Index> offsets(vertex_count + 1, 0);
-  for (Index v : sets.vertices) ++offsets[v + 1];
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  std::vector<Index> holders(sets.vertices.size());
-  std::vector<Index> next(offsets.begin(), offsets.end() - 1);
-  for (Index s = 0; s < sets.size(); ++s)
-    for (Index v : sets[s]) holders[next[v]++] = s;
-
-  BitMatrix shared(sets.size());
-  std::span<const Index> previous;
-  for (Index v = 0; v < vertex_count; ++v) {
-    const std::span<const Index> row = std::span(holders).subspan(offsets[v], offsets[v + 1] - offsets[v]);
-    // Most vertices are held by the same sets as the one before.
-    if (std::equal(row.begin(), row.end(), previous.begin(), previous.end())) continue;
-    previous = row;
-    for (Index a : row)
-      for (Index b : row) shared.set(a, b);
-  }
-  return shared;
 }
 
 }  // namespace toposcope

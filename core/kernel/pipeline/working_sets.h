@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/bit_matrix.h"
+#include "pipeline/stations.h"
 #include "toposcope/worksets.h"
 
 namespace toposcope {
@@ -24,12 +24,9 @@ struct WorkingSets {
   }
 };
 
-/// Runs the classifier and checks what it gives: known types, vertices in range, no repeats, connected.
+/// The station *classify*: runs the classifier and checks what it gives: known types, vertices in range, no repeats,
+/// connected.
 /// \throw PluginError
-WorkingSets classify_mesh(const MeshView& mesh, const WorkingSetClassifier& classifier, const std::string& plugin,
-                          const std::vector<std::string>& types, Context& context);
-
-/// Which sets share a vertex; every set shares with itself.
-BitMatrix overlaps(const WorkingSets& sets, Index vertex_count);
+WorkingSets classify_mesh(const MeshView& mesh, const WorkingSetStation& station, Context& context);
 
 }  // namespace toposcope

@@ -46,7 +46,7 @@ std::vector<OptionRow> rows(const OptionSpec* table, std::size_t count, const st
                                 std::to_string(static_cast<std::uint32_t>(spec.type)));
     copied.push_back({text(spec.name, id, field), spec.type, text(spec.unit, id, field),
                       text(spec.default_value, id, field), text(spec.minimum, id, field), text(spec.maximum, id, field),
-                      text(spec.meaning, id, field)});
+                      text(spec.meaning, id, field), text(spec.choices, id, field), text(spec.not_above, id, field)});
   }
   return copied;
 }
@@ -65,7 +65,8 @@ std::string list(const std::vector<OptionRow>& table) {
   std::string all;
   for (const OptionRow& row : table)
     all += row.name + " (" + types[static_cast<std::size_t>(row.type)] + ", unit '" + row.unit + "', default '" +
-           row.default_value + "', '" + row.minimum + "' to '" + row.maximum + "', " + row.meaning + "); ";
+           row.default_value + "', '" + row.minimum + "' to '" + row.maximum + "', choices '" + row.choices +
+           "', not above '" + row.not_above + "', " + row.meaning + "); ";
   return all;
 }
 
@@ -155,6 +156,7 @@ PluginManifest manifest_from_descriptor(const PluginDescriptor& descriptor) {
   manifest.min_arity = descriptor.min_arity;
   manifest.max_arity = descriptor.max_arity;
   manifest.ordered = descriptor.ordered != 0;
+  manifest.dimension = descriptor.dimension;
   manifest.options = rows(descriptor.options, descriptor.option_count, id, "options");
   manifest.arguments = rows(descriptor.arguments, descriptor.argument_count, id, "arguments");
   manifest.provides = provided(descriptor, id);
@@ -178,6 +180,12 @@ void check_manifest(const PluginManifest& manifest) {
                      std::to_string(manifest.min_arity) + "; 0 means no upper bound");
   if (manifest.kind == PluginKind::shapes && manifest.min_arity < 1)
     throw UsageError("arity: a shape needs a minimum of 1 working set or more");
+  const bool has_dimension = manifest.dimension >= 0 && manifest.dimension <= 3;
+  if (manifest.kind == PluginKind::shapes && !has_dimension)
+    throw UsageError("dimension " + std::to_string(manifest.dimension) +
+                     ": a shape says its own: 0 for a point, 1 for a line, 2 for a surface, 3 for a volume");
+  if (manifest.kind != PluginKind::shapes && manifest.dimension != -1)
+    throw UsageError("dimension " + std::to_string(manifest.dimension) + ": only shapes have one; leave it out");
   if (manifest.kind == PluginKind::relations && manifest.min_arity < 1)
     throw UsageError("arity: a relation needs a minimum of 1 feature or more");
   if (manifest.kind == PluginKind::relations && manifest.unit != "deg" && manifest.unit != "length")
@@ -218,6 +226,7 @@ std::vector<std::string> differences(const PluginManifest& manifest, const Plugi
   compare("minimum arity", std::to_string(manifest.min_arity), std::to_string(library.min_arity));
   compare("maximum arity", std::to_string(manifest.max_arity), std::to_string(library.max_arity));
   compare("ordered", std::to_string(manifest.ordered), std::to_string(library.ordered));
+  compare("dimension", std::to_string(manifest.dimension), std::to_string(library.dimension));
   compare("options", list(manifest.options), list(library.options));
   compare("arguments", list(manifest.arguments), list(library.arguments));
   compare("provides", list(manifest.provides), list(library.provides));

@@ -29,6 +29,8 @@ struct OptionRow {
   std::string name;
   OptionType type = OptionType::real;
   std::string unit, default_value, minimum, maximum, meaning;
+  std::string choices = {};  ///< of a text, separated by '|'
+  std::string not_above = {};
 };
 
 struct ProvidedRow {
@@ -43,6 +45,7 @@ struct PluginManifest {
   std::string id, version, summary, citation, unit, fingerprint;
   std::uint32_t abi_major = 0, abi_minor = 0, min_arity = 0, max_arity = 0;
   bool ordered = false;  ///< relations: it matters which feature comes first
+  int dimension = -1;    ///< shapes: 0 point, 1 line, 2 surface, 3 volume; else -1
   std::vector<OptionRow> options, arguments;
   std::vector<ProvidedRow> provides;
   std::vector<std::string> programs;  ///< that must be on the PATH for the plugin to run

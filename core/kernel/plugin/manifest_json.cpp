@@ -20,16 +20,16 @@ constexpr std::array<std::string_view, 4> type_names = {"real", "integer", "bool
 Json to_json(const std::vector<OptionRow>& table) {
   Json rows = Json::array();
   for (const OptionRow& row : table) {
-    const bool choices = row.type == OptionType::text;
     Json entry = {{"name", row.name},
                   {"type", type_names[static_cast<std::size_t>(row.type)]},
                   {"unit", row.unit},
                   {"default", row.default_value}};
-    if (choices) {
-      entry["choices"] = row.minimum;
+    if (row.type == OptionType::text) {
+      entry["choices"] = row.choices;
     } else {
       entry["minimum"] = row.minimum;
       entry["maximum"] = row.maximum;
+      if (!row.not_above.empty()) entry["not_above"] = row.not_above;
     }
     entry["meaning"] = row.meaning;
     rows.push_back(std::move(entry));
@@ -44,6 +44,7 @@ class Fields {
     if (!object.is_object()) throw UsageError((path_.empty() ? "document" : path_) + ": must be an object");
   }
 
+  bool has(const char* name) const { return object_.contains(name); }
   const Json& field(const char* name) const {
     const auto found = object_.find(name);
     if (found == object_.end()) throw UsageError(at(name) + ": is missing");
@@ -94,7 +95,7 @@ class Fields {
 };
 
 OptionRow option_row(const Fields& fields) {
-  fields.allow_only({"name", "type", "unit", "default", "minimum", "maximum", "choices", "meaning"});
+  fields.allow_only({"name", "type", "unit", "default", "minimum", "maximum", "not_above", "choices", "meaning"});
   OptionRow row;
   row.name = fields.text("name");
   const std::string type = fields.text("type");
@@ -104,9 +105,13 @@ OptionRow option_row(const Fields& fields) {
   row.type = static_cast<OptionType>(known - type_names.begin());
   row.unit = fields.text("unit");
   row.default_value = fields.text("default");
-  const bool choices = row.type == OptionType::text;
-  row.minimum = fields.text(choices ? "choices" : "minimum");
-  if (!choices) row.maximum = fields.text("maximum");
+  if (row.type == OptionType::text) {
+    row.choices = fields.text("choices");
+  } else {
+    row.minimum = fields.text("minimum");
+    row.maximum = fields.text("maximum");
+    if (fields.has("not_above")) row.not_above = fields.text("not_above");
+  }
   row.meaning = fields.text("meaning");
   return row;
 }
@@ -120,7 +125,7 @@ std::vector<OptionRow> option_rows(const std::vector<Fields>& entries) {
 PluginManifest parse(const Json& json) {
   const Fields root(json, "");
   root.allow_only({"schema", "id", "kind", "version", "abi", "fingerprint", "summary", "citation", "unit", "arity",
-                   "options", "arguments", "provides", "programs"});
+                   "dimension", "options", "arguments", "provides", "programs"});
   if (root.text("schema") != schema_id)
     throw UsageError("schema: must be '" + std::string(schema_id) + "', is '" + root.text("schema") + "'");
   PluginManifest manifest;
@@ -139,6 +144,7 @@ PluginManifest parse(const Json& json) {
   manifest.min_arity = root.object("arity").integer<std::uint32_t>("minimum");
   manifest.max_arity = root.object("arity").integer<std::uint32_t>("maximum");
   manifest.ordered = root.object("arity").integer<std::uint32_t>("ordered") != 0;
+  manifest.dimension = root.integer<int>("dimension");
   manifest.options = option_rows(root.array("options"));
   manifest.arguments = option_rows(root.array("arguments"));
   for (const Fields& entry : root.array("provides"))
@@ -165,6 +171,7 @@ std::string manifest_to_json(const PluginManifest& manifest) {
       {"unit", manifest.unit},
       {"arity",
        {{"minimum", manifest.min_arity}, {"maximum", manifest.max_arity}, {"ordered", manifest.ordered ? 1 : 0}}},
+      {"dimension", manifest.dimension},
       {"options", to_json(manifest.options)},
       {"arguments", to_json(manifest.arguments)},
       {"provides", provides},

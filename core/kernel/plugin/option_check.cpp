@@ -87,10 +87,10 @@ bool is_name(std::string_view name) {
 
 std::vector<std::string> option_choices(const OptionRow& row) {
   std::vector<std::string> choices;
-  if (row.type != OptionType::text || row.minimum.empty()) return choices;
-  for (std::size_t first = 0; first <= row.minimum.size();) {
-    const std::size_t last = std::min(row.minimum.find('|', first), row.minimum.size());
-    choices.push_back(row.minimum.substr(first, last - first));
+  if (row.choices.empty()) return choices;
+  for (std::size_t first = 0; first <= row.choices.size();) {
+    const std::size_t last = std::min(row.choices.find('|', first), row.choices.size());
+    choices.push_back(row.choices.substr(first, last - first));
     first = last + 1;
   }
   return choices;
@@ -134,7 +134,21 @@ std::vector<OptionValue> check_options(std::span<const OptionRow> table, std::sp
                        describe_constraint(row) + ": " + row.meaning);
     checked.push_back(values[i] ? std::move(*values[i]) : check_value(row, row.default_value, owner));
   }
+  check_order(table, checked, owner);
   return checked;
+}
+
+void check_order(std::span<const OptionRow> table, std::span<const OptionValue> values, const std::string& owner) {
+  const auto named = [&](const std::string& name) {
+    return std::find_if(values.begin(), values.end(), [&](const OptionValue& value) { return value.name == name; });
+  };
+  for (const OptionRow& row : table) {
+    if (row.not_above.empty()) continue;
+    const auto low = named(row.name), high = named(row.not_above);
+    if (low != values.end() && high != values.end() && low->number > high->number)
+      throw UsageError(owner + ": " + row.name + " = " + to_string(row, *low) + " is above " + row.not_above + " = " +
+                       to_string(row, *high) + "; exchange them or change one");
+  }
 }
 
 void check_table(std::span<const OptionRow> table, const std::string& owner) {
@@ -153,11 +167,21 @@ void check_table(std::span<const OptionRow> table, const std::string& owner) {
           throw UsageError(where + ": bound '" + *bound + "' is not a number of the option's type");
     if (row.type == OptionType::boolean && !(row.minimum.empty() && row.maximum.empty()))
       throw UsageError(where + ": a boolean has no bounds; leave them empty");
-    if (row.type == OptionType::text && !row.maximum.empty())
-      throw UsageError(where + ": a text option has no maximum; its choices stand in the minimum, separated by '|'");
+    if (row.type == OptionType::text && !(row.minimum.empty() && row.maximum.empty()))
+      throw UsageError(where + ": a text has no bounds; what it may be stands in 'choices', separated by '|'");
+    if (row.type != OptionType::text && !row.choices.empty())
+      throw UsageError(where + ": choices are for a text; leave them empty");
     if (numeric && !row.minimum.empty() && !row.maximum.empty() &&
         *parse_number(row.type, row.minimum) > *parse_number(row.type, row.maximum))
       throw UsageError(where + ": minimum " + row.minimum + " is above maximum " + row.maximum);
+    if (!row.not_above.empty()) {
+      const auto other =
+          std::find_if(table.begin(), table.end(), [&](const OptionRow& each) { return each.name == row.not_above; });
+      if (!numeric || other == table.end() || other == table.begin() + static_cast<std::ptrdiff_t>(i) ||
+          (other->type != OptionType::real && other->type != OptionType::integer))
+        throw UsageError(where + ": 'not_above' says '" + row.not_above +
+                         "'; it names another number of the same table, and stands at a number");
+    }
     if (!row.default_value.empty()) check_value(row, row.default_value, where);
   }
 }

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "pipeline/labeling_problem.h"
-#include "pipeline/places.h"
+#include "pipeline/bound_relation.h"
+#include "pipeline/most_probable_shapes.h"
 #include "result/result.h"
 #include "toposcope/labeling/tools.h"
 
@@ -14,21 +14,16 @@ namespace {
 /// Reads one labelling of the best class.
 class Explainer {
  public:
-  Explainer(const Analysis& analysis, const Model& model, const Stations& stations, Context& context)
-      : analysis_(analysis),
-        model_(model),
-        stations_(stations),
-        context_(context),
-        posed_(analysis.classes[analysis.best]),
-        best_(posed_.answer) {}
+  Explainer(const Analysis& analysis, const ModelRun& run)
+      : analysis_(analysis), run_(run), posed_(analysis.classes[analysis.best]), best_(posed_.answer) {}
 
   RelationReport relation(Index constraint, const Labeling& labeling) const {
     const Index r = posed_.relationships[constraint];
-    const Relationship& relationship = model_.relationships[r];
+    const Relationship& relationship = run_.model.relationships[r];
     RelationReport report;
     report.name = relationship.name;
     report.type = relationship.plugin;
-    report.unit = stations_.relation_units[r];
+    report.unit = run_.stations.relationships[r].unit;
     std::vector<const ConstructedFeature*> given;
     for (Index v : posed_.problem.constraints[constraint].scope) {
       report.features.push_back(posed_.problem.variables[v].name);
@@ -38,7 +33,7 @@ class Explainer {
         given.push_back(&constructed(v, labeling.values[v]));
     }
     if (!report.why.empty()) return report;
-    const RelationResult result = test_relationship(analysis_.mesh.view(), model_, r, given, stations_, context_);
+    const RelationResult result = test_relationship(run_, r, given);
     const double scale = report.unit == "deg" ? 180 / pi : 1;
     report.tested = true;
     report.applicable = result.applicable;
@@ -46,14 +41,14 @@ class Explainer {
     report.residual = result.residual * scale;
     report.tolerance = result.tolerance * scale;
     report.satisfied = violation(result) <= 1;
-    report.probability = relation_probability(stations_.probability, result);
+    report.probability = relation_probability(run_.stations.probability, result);
     return report;
   }
 
   FeatureReport feature(Index model_feature) const {
     FeatureReport report;
-    report.name = model_.features[model_feature].name;
-    report.shape_plugin = model_.features[model_feature].shape.plugin;
+    report.name = run_.model.features[model_feature].name;
+    report.shape_plugin = run_.model.features[model_feature].shape.plugin;
     const auto found = std::find(posed_.features.begin(), posed_.features.end(), model_feature);
     if (found == posed_.features.end()) {
       report.probability = 1;
@@ -86,12 +81,12 @@ class Explainer {
 
   double probability(Index v, Index value) const {
     if (posed_.outcome.posteriors.empty()) return std::numeric_limits<double>::quiet_NaN();
-    return probability_of_place(posed_, v, value, model_, analysis_, stations_);
+    return probability_of_shape(posed_, v, value, analysis_.features, run_);
   }
 
   /// Triangles of the input of which at least half (of the filtered pieces) have two vertices in the working sets.
   std::vector<Index> triangles_of(const ConstructedFeature& made) const {
-    const MeshView& view = analysis_.mesh.view();
+    const MeshView& view = run_.mesh;
     std::vector<bool> inside(view.vertex_count(), false);
     for (Index s : made.sets)
       for (Index v : analysis_.sets[s]) inside[v] = true;
@@ -113,10 +108,11 @@ class Explainer {
     MissingReport report;
     const LabelingVariable& variable = posed_.problem.variables[v];
     if (variable.candidates.empty()) {
-      report.reason = no_candidate(model_.features[model_feature], analysis_.features.of_feature[model_feature].count);
+      report.reason =
+          no_candidate(run_.model.features[model_feature], analysis_.features.of_feature[model_feature].count);
       return report;
     }
-    report.conflict = conflict_of_missing(posed_.problem, best_, v, context_);
+    report.conflict = conflict_of_missing(posed_.problem, best_, v, run_.context);
     Labeling trial = best_;
     Index nearest = 0, in_conflict = 0;
     Price least{std::numeric_limits<std::size_t>::max(), 0};
@@ -189,9 +185,7 @@ class Explainer {
   }
 
   const Analysis& analysis_;
-  const Model& model_;
-  const Stations& stations_;
-  Context& context_;
+  const ModelRun& run_;
   const ClassOutcome& posed_;
   const Labeling& best_;
 };
@@ -202,7 +196,8 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
                Context& context) {
   const ClassOutcome& posed = analysis.classes[analysis.best];
   const LabelingOutcome& outcome = posed.outcome;
-  const Explainer explainer(analysis, model, stations, context);
+  const ModelRun run{analysis.mesh.view(), model, stations, context};
+  const Explainer explainer(analysis, run);
   const MeshView& input = analysis.mesh.input->view();
 
   Result result;

@@ -25,10 +25,10 @@ Rgb feature_color(std::size_t feature) {
   return features[feature % std::size(features)];
 }
 
-Rgb working_set_color(std::string_view type, std::size_t place) {
+Rgb working_set_color(std::string_view type, std::size_t index) {
   for (const TypeColor& each : types)
     if (each.type == type) return each.color;
-  return other_types[place % std::size(other_types)];
+  return other_types[index % std::size(other_types)];
 }
 
 std::string hex(const Rgb& color) {

@@ -15,8 +15,8 @@ inline constexpr Rgb no_label_color = {210, 210, 210};
 /// Of the i-th feature of a result; they come again after eight.
 Rgb feature_color(std::size_t feature);
 
-/// Of a type of working sets; a type that is not known takes the colour of its place in the list of types.
-Rgb working_set_color(std::string_view type, std::size_t place);
+/// Of a type of working sets; a type that is not known takes the colour of its index in the list of types.
+Rgb working_set_color(std::string_view type, std::size_t index);
 
 /// "#rrggbb"
 std::string hex(const Rgb& color);

@@ -2,45 +2,59 @@
 #include <filesystem>
 
 #include "index/index_document.h"
-#include "index/json_table.h"
+#include "index/json_values.h"
+#include "table/table_json.h"
 
 namespace toposcope {
 namespace {
 
-SceneJson labelers_table(const std::vector<Comparison>& comparisons) {
-  JsonTable table("labelers", "Labelers over all meshes");
-  table.column("labeler", "text")
-      .column("meshes", "number")
-      .column("proven optimal", "number")
-      .column("unsound", "number");
-  table.column("mean gap", "number", "nats").column("worst gap", "number", "nats").column("mean posterior", "percent");
-  table.column("median", "ms", "ms").column("worst", "ms", "ms").column("nodes", "number");
-  table.column("right", "number").column("of", "number").column("part right", "percent");
+Table labelers_table(const std::vector<Comparison>& comparisons) {
+  Table table{.title = "Labelers over all meshes", .id = "labelers"};
+  table.columns = {"labeler",
+                   {"meshes", "number"},
+                   {"proven optimal", "number"},
+                   {"unsound", "number"},
+                   {"mean gap", "number", "nats"},
+                   {"worst gap", "number", "nats"},
+                   {"mean posterior", "percent"},
+                   {"median", "ms", "ms"},
+                   {"worst", "ms", "ms"},
+                   {"nodes", "number"},
+                   {"right", "number"},
+                   {"of", "number"},
+                   {"part right", "percent"}};
+  const Cell none;
   for (const Total& t : totals(comparisons))
-    table.row({t.labeler, t.meshes, t.proven, t.unsound, finite(t.mean_gap), finite(t.worst_gap),
-               finite(t.mean_posterior), finite(t.median_ms), finite(t.worst_ms), t.nodes,
-               t.of > 0 ? SceneJson(t.right) : SceneJson(nullptr), t.of > 0 ? SceneJson(t.of) : SceneJson(nullptr),
-               part(t.right, t.of)});
-  return table.take();
+    table.rows.push_back({t.labeler, t.meshes, t.proven, t.unsound, t.mean_gap, t.worst_gap, t.mean_posterior,
+                          t.median_ms, t.worst_ms, t.nodes, t.of > 0 ? Cell(t.right) : none,
+                          t.of > 0 ? Cell(t.of) : none, share(t.right, t.of)});
+  return table;
 }
 
 std::string name_of(const Comparison& comparison) {
   return std::filesystem::path(comparison.mesh).filename().string();
 }
 
-SceneJson entries_table(const std::vector<Comparison>& comparisons) {
-  JsonTable table("entries", "Each mesh under each labeler");
-  table.column("mesh", "text").column("labeler", "text").column("class", "text").column("cost", "number", "nats");
-  table.column("bound", "number", "nats").column("gap", "number", "nats").column("proven", "text");
-  table.column("posterior", "percent").column("time", "ms", "ms").column("nodes", "number");
-  table.column("right", "number").column("of", "number").column("promise", "text");
+Table entries_table(const std::vector<Comparison>& comparisons) {
+  Table table{.title = "Each mesh under each labeler", .id = "entries"};
+  table.columns = {"mesh",
+                   "labeler",
+                   "class",
+                   {"cost", "number", "nats"},
+                   {"bound", "number", "nats"},
+                   {"gap", "number", "nats"},
+                   "proven",
+                   {"posterior", "percent"},
+                   {"time", "ms", "ms"},
+                   {"nodes", "number"},
+                   {"right", "number"},
+                   {"of", "number"},
+                   "promise"};
   for (const Comparison& comparison : comparisons)
     for (const Entry& e : comparison.entries)
-      table.row({name_of(comparison), e.labeler, e.class_name, finite(e.cost), finite(e.bound), finite(e.gap()),
-                 e.proven ? "yes" : "no", finite(e.posterior), finite(e.time_ms), e.nodes,
-                 e.right ? SceneJson(*e.right) : SceneJson(nullptr), e.of ? SceneJson(*e.of) : SceneJson(nullptr),
-                 e.guarantee});
-  return table.take();
+      table.rows.push_back({name_of(comparison), e.labeler, e.class_name, e.cost, e.bound, e.gap(),
+                            e.proven ? "yes" : "no", e.posterior, e.time_ms, e.nodes, e.right, e.of, e.guarantee});
+  return table;
 }
 
 }  // namespace
@@ -49,7 +63,7 @@ std::string comparison_index(const std::vector<Comparison>& comparisons, const s
                              const std::vector<LabelerView>& views, const std::string& program) {
   SceneJson root = {{"schema", "toposcope.index/1"}, {"title", "Labelers side by side"}, {"program", program}};
   if (comparisons.size() == 1) root["title"] = "Labelers side by side · " + name_of(comparisons[0]);
-  root["tables"] = {labelers_table(comparisons), entries_table(comparisons)};
+  root["tables"] = {to_json(labelers_table(comparisons)), to_json(entries_table(comparisons))};
   root["meshes"] = SceneJson::array();
   for (std::size_t m = 0; m < comparisons.size(); ++m) {
     SceneJson verdicts = SceneJson::object();  // of a labeler: whether all that is known of the mesh is right

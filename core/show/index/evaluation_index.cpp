@@ -1,15 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <set>
 
 #include "index/index_document.h"
-#include "index/json_table.h"
+#include "index/json_values.h"
+#include "table/table_json.h"
 
 namespace toposcope {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+/// A number of the features that were found; nothing where none was.
+Cell measured(const FeatureSummary& summary, double value) {
+  return summary.measured > 0 ? Cell(value) : Cell();
+}
+
+Cell text_or_none(const std::string& text) {
+  return text.empty() ? Cell() : Cell(text);
+}
 
 double median_ms(const Evaluation& evaluation) {
   std::vector<double> times;
@@ -19,27 +30,32 @@ double median_ms(const Evaluation& evaluation) {
   return times[times.size() / 2];
 }
 
-SceneJson datasets_table(const std::vector<Evaluation>& evaluations) {
-  JsonTable table("datasets", "Data sets");
-  table.column("data set", "text").column("model", "text").column("meshes", "number").column("wholly right", "number");
-  table.column("meshes right", "percent").column("features right", "number").column("of", "number");
-  table.column("part right", "percent")
-      .column("distance", "number", "mean edges")
-      .column("worst", "number", "mean edges");
-  table.column("calibration error", "number").column("median", "ms", "ms");
+Table datasets_table(const std::vector<Evaluation>& evaluations) {
+  Table table{.title = "Data sets", .id = "datasets"};
+  table.columns = {"data set",
+                   "model",
+                   {"meshes", "number"},
+                   {"wholly right", "number"},
+                   {"meshes right", "percent"},
+                   {"features right", "number"},
+                   {"of", "number"},
+                   {"part right", "percent"},
+                   {"distance", "number", "mean edges"},
+                   {"worst", "number", "mean edges"},
+                   {"calibration error", "number"},
+                   {"median", "ms", "ms"}};
   for (const Evaluation& evaluation : evaluations) {
     const auto meshes = all_of(evaluation);
     const FeatureSummary all = summarize(meshes).back();
     const auto right = static_cast<std::size_t>(std::count_if(
         meshes.begin(), meshes.end(), [&](const MeshEvaluation* mesh) { return evaluation.right(*mesh); }));
     const Reliability reliable = reliability(meshes);
-    table.row({evaluation.dataset, evaluation.model, meshes.size(), right, part(right, meshes.size()),
-               all.right + all.absent, all.all(), part(all.right + all.absent, all.all()),
-               finite(all.measured > 0 ? all.edges : no_number), finite(all.measured > 0 ? all.worst_edges : no_number),
-               finite(reliable.count > 0 ? reliable.expected_calibration_error : no_number),
-               finite(median_ms(evaluation))});
+    table.rows.push_back({evaluation.dataset, evaluation.model, meshes.size(), right, share(right, meshes.size()),
+                          all.right + all.absent, all.all(), share(all.right + all.absent, all.all()),
+                          measured(all, all.edges), measured(all, all.worst_edges),
+                          reliable.count > 0 ? reliable.expected_calibration_error : no_number, median_ms(evaluation)});
   }
-  return table.take();
+  return table;
 }
 
 /// Of a mesh: what is known of one of its features.
@@ -53,55 +69,69 @@ std::string found_class(const MeshEvaluation& mesh) {
   return mesh.found_class.empty() ? "unknown" : mesh.found_class;
 }
 
-SceneJson meshes_table(const Evaluation& evaluation, const std::vector<MeshCard>& cards) {
-  JsonTable table(evaluation.dataset + "-meshes", evaluation.dataset + ": meshes");
+/// Cells of one mesh: the verdict of each feature; how far off they are and how sure the least sure is.
+void add_features(const MeshEvaluation& mesh, const std::vector<std::string>& features, std::vector<Cell>& row) {
+  double least = no_number;
+  for (const std::string& feature : features) {
+    const FeatureJudgement* each = judged(mesh, feature);
+    row.push_back(each ? Cell(to_string(each->verdict)) : Cell());
+    if (each && !(each->probability >= least)) least = each->probability;
+  }
+  if (features.empty()) return;
+  const FeatureSummary all = summarize({&mesh}).back();
+  row.push_back(measured(all, all.edges));
+  row.push_back(least);
+}
+
+Table meshes_table(const Evaluation& evaluation, const std::vector<MeshCard>& cards) {
+  Table table{.title = evaluation.dataset + ": meshes", .id = evaluation.dataset + "-meshes"};
   std::vector<std::string> features;
   for (const FeatureSummary& summary : summarize(all_of(evaluation))) features.push_back(summary.name);
   features.pop_back();  // "all"
   const bool classes = !confusion(all_of(evaluation)).empty();
-  table.column("mesh", "text").column("faces", "number");
-  if (classes) table.column("class", "text").column("taken for", "text").column("probability", "percent");
-  for (const std::string& feature : features) table.column(feature, "verdict");
-  if (!features.empty()) table.column("distance", "number", "mean edges").column("least probability", "percent");
-  table.column("time", "ms", "ms").column("error", "text");
+  const auto add = [&](std::initializer_list<Column> more) {
+    table.columns.insert(table.columns.end(), more.begin(), more.end());
+  };
+  add({"mesh", {"faces", "number"}});
+  if (classes) add({"class", "taken for", {"probability", "percent"}});
+  for (const std::string& feature : features) add({{feature, "verdict"}});
+  if (!features.empty()) add({{"distance", "number", "mean edges"}, {"least probability", "percent"}});
+  add({{"time", "ms", "ms"}, "error"});
   for (std::size_t m = 0; m < evaluation.meshes.size(); ++m) {
     const MeshEvaluation& mesh = evaluation.meshes[m];
-    SceneJson row = {mesh.name, mesh.faces};
+    std::vector<Cell> row = {mesh.name, mesh.faces};
     if (classes) {
-      row.push_back(text_or_null(mesh.expected_class));
-      row.push_back(mesh.error.empty() ? SceneJson(found_class(mesh)) : SceneJson(nullptr));
-      row.push_back(finite(mesh.class_probability));
+      row.push_back(text_or_none(mesh.expected_class));
+      row.push_back(mesh.error.empty() ? Cell(found_class(mesh)) : Cell());
+      row.push_back(mesh.class_probability);
     }
-    double least = no_number;
-    for (const std::string& feature : features) {
-      const FeatureJudgement* each = judged(mesh, feature);
-      row.push_back(each ? SceneJson(to_string(each->verdict)) : SceneJson(nullptr));
-      if (each && !(each->probability >= least)) least = each->probability;
-    }
-    if (!features.empty()) {
-      const FeatureSummary all = summarize({&mesh}).back();
-      row.push_back(finite(all.measured > 0 ? all.edges : no_number));
-      row.push_back(finite(least));
-    }
-    row.push_back(finite(mesh.error.empty() ? mesh.time_ms : no_number));
-    row.push_back(text_or_null(mesh.error));
-    table.row(std::move(row));
-    table.link(cards[m].report);
+    add_features(mesh, features, row);
+    row.push_back(mesh.error.empty() ? mesh.time_ms : no_number);
+    row.push_back(text_or_none(mesh.error));
+    table.rows.push_back(std::move(row));
+    table.links.push_back(cards[m].report);
   }
-  return table.take();
+  return table;
 }
 
-SceneJson features_table(const Evaluation& evaluation) {
-  JsonTable table(evaluation.dataset + "-features", evaluation.dataset + ": features");
-  table.column("feature", "text").column("right", "number").column("of", "number").column("part right", "percent");
-  for (const char* verdict : {"wrong", "missed", "spurious", "absent"}) table.column(verdict, "number");
-  table.column("distance", "number", "mean edges").column("worst", "number", "mean edges");
-  table.column("of the diagonal", "percent");
+Table features_table(const Evaluation& evaluation) {
+  Table table{.title = evaluation.dataset + ": features", .id = evaluation.dataset + "-features"};
+  table.columns = {"feature",
+                   {"right", "number"},
+                   {"of", "number"},
+                   {"part right", "percent"},
+                   {"wrong", "number"},
+                   {"missed", "number"},
+                   {"spurious", "number"},
+                   {"absent", "number"},
+                   {"distance", "number", "mean edges"},
+                   {"worst", "number", "mean edges"},
+                   {"of the diagonal", "percent"}};
   for (const FeatureSummary& s : summarize(all_of(evaluation)))
-    table.row({s.name, s.right + s.absent, s.all(), part(s.right + s.absent, s.all()), s.wrong, s.missed, s.spurious,
-               s.absent, finite(s.measured > 0 ? s.edges : no_number),
-               finite(s.measured > 0 ? s.worst_edges : no_number), finite(s.measured > 0 ? s.diagonal : no_number)});
-  return table.take();
+    table.rows.push_back({s.name, s.right + s.absent, s.all(), share(s.right + s.absent, s.all()), s.wrong, s.missed,
+                          s.spurious, s.absent, measured(s, s.edges), measured(s, s.worst_edges),
+                          measured(s, s.diagonal)});
+  return table;
 }
 
 SceneJson card_json(const Evaluation& evaluation, const MeshEvaluation& mesh, const MeshCard& card) {
@@ -159,15 +189,15 @@ SceneJson confusion_json(const std::vector<const MeshEvaluation*>& meshes) {
 std::string evaluation_index(const std::vector<Evaluation>& evaluations,
                              const std::vector<std::vector<MeshCard>>& cards, const std::string& program) {
   SceneJson root = {{"schema", "toposcope.index/1"}, {"title", "Evaluation"}, {"program", program}};
-  root["tables"] = {datasets_table(evaluations)};
+  root["tables"] = SceneJson::array({to_json(datasets_table(evaluations))});
   root["meshes"] = SceneJson::array();
   root["reliability"] = SceneJson::array();
   std::vector<const MeshEvaluation*> all;
   for (std::size_t e = 0; e < evaluations.size(); ++e) {
     const auto meshes = all_of(evaluations[e]);
     all.insert(all.end(), meshes.begin(), meshes.end());
-    if (summarize(meshes).back().all() > 0) root["tables"].push_back(features_table(evaluations[e]));
-    root["tables"].push_back(meshes_table(evaluations[e], cards[e]));
+    if (summarize(meshes).back().all() > 0) root["tables"].push_back(to_json(features_table(evaluations[e])));
+    root["tables"].push_back(to_json(meshes_table(evaluations[e], cards[e])));
     for (std::size_t m = 0; m < meshes.size(); ++m)
       root["meshes"].push_back(card_json(evaluations[e], *meshes[m], cards[e][m]));
     if (SceneJson curve = reliability_json(evaluations[e].dataset, meshes); !curve.is_null())

@@ -9,7 +9,7 @@
 
 namespace toposcope {
 
-/// What a picture of a scene shows; named as on the page (web/src/state.ts).
+/// What a picture of a scene shows; named as the page names its stages (web/src/state.ts).
 enum class Stage {
   mesh,         ///< the normalised mesh, with its edges
   sets,         ///< working sets by type

@@ -26,9 +26,7 @@ struct Drawing {
 /// within the hull of the region; {endpoints} segments; {center, radius} a sphere; {point, axis, radius} a cylinder and
 /// {apex, axis, half_angle} a cone as long as the region; {center, axis, major_radius, minor_radius} a torus. Any other
 /// shape is its outline.
-/// \param region   the points that the shape was fitted to; without them planes, cylinders and cones have no end, and
-/// so
-///                 no drawing
+/// \param region   what the shape was fitted to; without it planes, cylinders and cones have no end, so no drawing
 /// \param outline  the fitter's, may be empty
 Drawing draw_shape(std::span<const ShapeParameter> parameters, std::span<const Vec3> region,
                    std::span<const Vec3> outline = {}, bool outline_closed = false);

@@ -134,12 +134,7 @@ void add_marks(const Truth* truth, Scene& scene) {
   if (!truth) return;
   scene.has_truth = true;
   scene.truth = truth->document;
-  for (const TruthFeature& feature : truth->features) {
-    std::vector<Vec3> points = feature.points;
-    for (const TruthGroup& group : feature.groups)
-      points.insert(points.end(), group.points.begin(), group.points.end());
-    scene.marks.emplace_back(feature.name, std::move(points));
-  }
+  for (const TruthFeature& feature : truth->features) scene.marks.emplace_back(feature.name, feature.points);
 }
 
 }  // namespace

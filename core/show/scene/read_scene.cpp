@@ -53,7 +53,6 @@ ShownWorkingSet set_from(const SceneJson& node, std::size_t shown_vertices) {
   set.type = node.at("type").get<std::string>();
   set.vertices = read_indices(node.at("vertices"));
   set.size = node.at("size").get<std::size_t>();
-  if (node.contains("level")) set.saliency = number(node.at("level"));
   for (const Index v : set.vertices)
     if (v >= shown_vertices) throw std::invalid_argument("a working set names a vertex that is not there");
   return set;
@@ -92,7 +91,10 @@ Scene scene_from(const SceneJson& root) {
     throw std::invalid_argument("there is not one face for each triangle");
   if (root.at("surfaces").contains("normalised")) scene.normalised = surface_from(root.at("surfaces").at("normalised"));
   const std::size_t shown = scene.of_sets().positions.size();
-  for (const SceneJson& node : root.at("working_sets")) scene.sets.push_back(set_from(node, shown));
+  for (const SceneJson& node : root.at("working_sets")) {
+    scene.sets.push_back(set_from(node, shown));
+    scene.sets.back().saliency = number(node.at("saliency"));
+  }
   for (const SceneJson& node : root.at("all_working_sets")) scene.all_sets.push_back(set_from(node, shown));
   for (const ShownWorkingSet& set : scene.all_sets) scene.types.push_back(set.type);
   for (const SceneJson& node : root.at("candidates"))

@@ -77,7 +77,7 @@ SceneJson document(const Scene& scene, const std::string& program) {
     root["working_sets"].push_back({{"type", set.type},
                                     {"vertices", index_buffer(set.vertices)},
                                     {"size", set.size},
-                                    {"level", number(set.saliency)}});
+                                    {"saliency", number(set.saliency)}});
   root["all_working_sets"] = SceneJson::array();
   for (const ShownWorkingSet& set : scene.all_sets)
     root["all_working_sets"].push_back(

@@ -34,7 +34,7 @@ Entry entry_of(const Contender& contender, const ClassOutcome& best, double time
   entry.class_name = best.name;
   const Labeling& labeling = best.outcome.labelings.front();
   for (Index v = 0; v < labeling.values.size(); ++v)
-    entry.labelling.emplace_back(
+    entry.labeling.emplace_back(
         best.problem.variables[v].name,
         labeling.values[v] == 0 ? 0 : best.problem.variables[v].candidates[labeling.values[v] - 1] + 1);
   entry.cost = labeling.cost;
@@ -54,8 +54,7 @@ Comparison compare(Analysis& analysis, const Model& model, const Stations& stati
   std::vector<ClassBound> bounds;
   for (const Contender& contender : contenders) {
     Stations with = stations;
-    with.labeler = contender.labeler;
-    with.labeler_id = contender.id;
+    with.labeler = {contender.id, contender.labeler};
     label(analysis, model, with, request, context);
     double time_ms = 0;
     std::uint64_t nodes = 0;

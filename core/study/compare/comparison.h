@@ -24,7 +24,7 @@ struct Contender {
 struct Entry {
   std::string labeler;
   std::string class_name;  ///< of the model that it found best; the model's own name without
-  std::vector<std::pair<std::string, Index>> labelling;  ///< feature and number of its candidate; 0: missing
+  std::vector<std::pair<std::string, Index>> labeling;  ///< feature and number of its candidate; 0: missing
   double cost = 0;       ///< of its first labelling; infinite: it breaks a hard constraint
   double bound = 0;      ///< no labelling costs less: the best bound of all labelers
   bool proven = false;   ///< its cost is the optimum, to rounding: cost = bound

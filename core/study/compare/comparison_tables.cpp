@@ -1,44 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/csv.h"
 #include "compare/comparison.h"
+#include "table/table.h"
 
 namespace toposcope {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string number(double value, const char* format) {
-  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
-}
-
-std::string words(const std::vector<std::pair<std::string, Index>>& labelling) {
+std::string words(const std::vector<std::pair<std::string, Index>>& labeling) {
   std::string text;
-  for (const auto& [feature, candidate] : labelling)
+  for (const auto& [feature, candidate] : labeling)
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", feature, candidate == 0 ? "-" : std::to_string(candidate));
   return text;
 }
 
-std::string right_of(const Entry& entry) {
-  return entry.of ? fmt::format("{}/{}", *entry.right, *entry.of) : "-";
+Cell right_of(std::size_t right, std::size_t of) {
+  return fmt::format("{}/{}", right, of);
 }
 
-std::string gap_of(const Entry& entry) {
-  return entry.proven ? "0" : number(entry.gap(), "{:.3g}");
+/// A column of numbers that is so wide as text.
+Column number(const char* name, std::size_t width, const char* format = "{:.3g}") {
+  Column column(name, "number", "", format);
+  column.width = width;
+  return column;
+}
+
+Column labeler_column() {
+  Column column("labeler");
+  column.width = 8;
+  return column;
 }
 
 // What is no finite number is written as null.
 Json as_json(const Entry& entry) {
-  Json labelling = Json::object();
-  for (const auto& [feature, candidate] : entry.labelling)
-    labelling[feature] = candidate == 0 ? Json() : Json(candidate);
+  Json labeling = Json::object();
+  for (const auto& [feature, candidate] : entry.labeling) labeling[feature] = candidate == 0 ? Json() : Json(candidate);
   return {{"labeler", entry.labeler},
           {"class", entry.class_name},
-          {"labelling", labelling},
+          {"labeling", labeling},
           {"cost", entry.cost},
           {"bound", entry.bound},
           {"gap", entry.gap()},
@@ -73,7 +77,7 @@ std::vector<char> letters(const Comparison& comparison) {
   for (const Entry& entry : comparison.entries) {
     std::size_t at = 0;
     while (at < distinct.size() &&
-           (distinct[at]->labelling != entry.labelling || distinct[at]->class_name != entry.class_name))
+           (distinct[at]->labeling != entry.labeling || distinct[at]->class_name != entry.class_name))
       ++at;
     if (at == distinct.size()) distinct.push_back(&entry);
     result.push_back(at < 26 ? static_cast<char>('A' + at) : '?');
@@ -81,61 +85,51 @@ std::vector<char> letters(const Comparison& comparison) {
   return result;
 }
 
-std::size_t name_width(const std::vector<std::string>& names) {
-  std::size_t width = 8;
-  for (const std::string& name : names) width = std::max(width, name.size());
-  return width + 2;
-}
-
 }  // namespace
 
 std::string to_text(const Comparison& comparison) {
-  std::vector<std::string> names;
-  for (const Entry& entry : comparison.entries) names.push_back(entry.labeler);
-  const std::size_t width = name_width(names);
-  std::string text = fmt::format("{}\n  {:<{}}{:<3}{:>10} {:>9} {:>10} {:>10} {:>9} {:>6}  {}\n", comparison.mesh,
-                                 "labeler", width, "", "cost", "gap", "posterior", "ms", "nodes", "right", "guarantee");
+  Column letter_column("");
+  letter_column.width = 1;
+  Table table{.title = comparison.mesh,
+              .columns = {labeler_column(), letter_column, number("cost", 10, "{:.2f}"), number("gap", 8),
+                          number("posterior", 9), number("ms", 9, "{:.2f}"), number("nodes", 8), number("right", 5),
+                          "guarantee"}};
   const std::vector<char> letter = letters(comparison);
   std::string legend;
   for (std::size_t i = 0; i < comparison.entries.size(); ++i) {
     const Entry& entry = comparison.entries[i];
-    text += fmt::format("  {:<{}}{:<3}{:>10} {:>9} {:>10} {:>10.2f} {:>9} {:>6}  {}\n", entry.labeler, width, letter[i],
-                        number(entry.cost, "{:.2f}"), gap_of(entry), number(entry.posterior, "{:.3g}"), entry.time_ms,
-                        entry.nodes, right_of(entry), entry.guarantee);
+    table.rows.push_back({entry.labeler, std::string(1, letter[i]), entry.cost,
+                          entry.proven ? Cell(0.0) : Cell(entry.gap()), entry.posterior, entry.time_ms, entry.nodes,
+                          entry.of ? right_of(*entry.right, *entry.of) : Cell(), entry.guarantee});
     if (std::find(letter.begin(), letter.begin() + static_cast<std::ptrdiff_t>(i), letter[i]) ==
         letter.begin() + static_cast<std::ptrdiff_t>(i))
-      legend += fmt::format("  {}  {}: {}\n", letter[i], entry.class_name, words(entry.labelling));
+      legend += fmt::format("  {}  {}: {}\n", letter[i], entry.class_name, words(entry.labeling));
   }
-  return text + legend + "\n";
+  return to_text(table) + legend + "\n";
 }
 
 std::string to_text(const std::vector<Total>& totals) {
   if (totals.empty()) return "";
-  std::vector<std::string> names;
-  for (const Total& total : totals) names.push_back(total.labeler);
-  const std::size_t width = name_width(names);
-  std::string text = fmt::format("all {} meshes\n  {:<{}}{:>7} {:>8} {:>9} {:>9} {:>10} {:>10} {:>10} {:>10} {:>9}\n",
-                                 totals[0].meshes, "labeler", width, "optimal", "unsound", "mean gap", "worst",
-                                 "posterior", "median ms", "worst ms", "nodes", "right");
+  Table table{.title = fmt::format("all {} meshes", totals[0].meshes),
+              .columns = {labeler_column(), number("optimal", 7), number("unsound", 7), number("mean gap", 8),
+                          number("worst", 8), number("posterior", 9, "{:.3f}"), number("median ms", 9, "{:.2f}"),
+                          number("worst ms", 9, "{:.2f}"), number("nodes", 9), number("right", 8)}};
   for (const Total& total : totals)
-    text += fmt::format("  {:<{}}{:>7} {:>8} {:>9} {:>9} {:>10} {:>10.2f} {:>10.2f} {:>10} {:>9}\n", total.labeler,
-                        width, total.proven, total.unsound, number(total.mean_gap, "{:.3g}"),
-                        number(total.worst_gap, "{:.3g}"), number(total.mean_posterior, "{:.3f}"), total.median_ms,
-                        total.worst_ms, total.nodes, total.of > 0 ? fmt::format("{}/{}", total.right, total.of) : "-");
-  return text;
+    table.rows.push_back({total.labeler, total.proven, total.unsound, total.mean_gap, total.worst_gap,
+                          total.mean_posterior, total.median_ms, total.worst_ms, total.nodes,
+                          total.of > 0 ? right_of(total.right, total.of) : Cell()});
+  return to_text(table);
 }
 
 std::string to_markdown(const std::vector<Total>& totals) {
-  std::string text =
-      "| labeler | optimal | unsound | mean gap | worst gap | posterior | median ms | worst ms | nodes | right |\n"
-      "|---|---|---|---|---|---|---|---|---|---|\n";
+  Table table{.columns = {"labeler", "optimal", number("unsound", 0), number("mean gap", 0), number("worst gap", 0),
+                          number("posterior", 0, "{:.3f}"), number("median ms", 0, "{:.2f}"),
+                          number("worst ms", 0, "{:.2f}"), number("nodes", 0), "right"}};
   for (const Total& total : totals)
-    text +=
-        fmt::format("| `{}` | {} of {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {} | {} |\n", total.labeler,
-                    total.proven, total.meshes, total.unsound, number(total.mean_gap, "{:.3g}"),
-                    number(total.worst_gap, "{:.3g}"), number(total.mean_posterior, "{:.3f}"), total.median_ms,
-                    total.worst_ms, total.nodes, total.of > 0 ? fmt::format("{} of {}", total.right, total.of) : "-");
-  return text;
+    table.rows.push_back({"`" + total.labeler + "`", fmt::format("{} of {}", total.proven, total.meshes), total.unsound,
+                          total.mean_gap, total.worst_gap, total.mean_posterior, total.median_ms, total.worst_ms,
+                          total.nodes, total.of > 0 ? Cell(fmt::format("{} of {}", total.right, total.of)) : Cell()});
+  return to_markdown(table);
 }
 
 std::string to_json(const std::vector<Comparison>& comparisons) {
@@ -150,22 +144,22 @@ std::string to_json(const std::vector<Comparison>& comparisons) {
 }
 
 std::string to_csv(const std::vector<Comparison>& comparisons) {
-  const auto plain = [](double value) { return std::isfinite(value) ? fmt::format("{:.10g}", value) : std::string(); };
-  std::string text = "mesh,labeler,class,labelling,cost,gap,proven,posterior,time_ms,nodes,right,of,guarantee\n";
+  const Cell none;
+  Table table{.columns = {"mesh", "labeler", "class", "labeling", number("cost", 0, "{:.10g}"),
+                          number("gap", 0, "{:.10g}"), "proven", number("posterior", 0, "{:.10g}"),
+                          number("time_ms", 0, "{:.4f}"), number("nodes", 0), number("right", 0), number("of", 0),
+                          "guarantee"}};
   for (const Comparison& comparison : comparisons)
     for (const Entry& entry : comparison.entries)
-      text += fmt::format("{},{},{},{},{},{},{},{},{:.4f},{},{},{},{}\n", csv_field(comparison.mesh),
-                          csv_field(entry.labeler), csv_field(entry.class_name), csv_field(words(entry.labelling)),
-                          plain(entry.cost), entry.proven ? "0" : plain(entry.gap()), entry.proven ? "yes" : "no",
-                          plain(entry.posterior), entry.time_ms, entry.nodes,
-                          entry.right ? std::to_string(*entry.right) : "", entry.of ? std::to_string(*entry.of) : "",
-                          csv_field(entry.guarantee));
+      table.rows.push_back({comparison.mesh, entry.labeler, entry.class_name, words(entry.labeling), entry.cost,
+                            entry.proven ? Cell(0.0) : Cell(entry.gap()), entry.proven ? "yes" : "no", entry.posterior,
+                            entry.time_ms, entry.nodes, entry.right, entry.of, entry.guarantee});
   for (const Total& total : totals(comparisons))
-    text += fmt::format(",{},,,,{},{} of {},{},{:.4f},{},{},{},{}\n", csv_field(total.labeler), plain(total.mean_gap),
-                        total.proven, total.meshes, plain(total.mean_posterior), total.median_ms, total.nodes,
-                        total.of > 0 ? std::to_string(total.right) : "", total.of > 0 ? std::to_string(total.of) : "",
-                        csv_field("mean gap and posterior, median time, sums of nodes and right"));
-  return text;
+    table.rows.push_back({"", total.labeler, "", "", none, total.mean_gap,
+                          fmt::format("{} of {}", total.proven, total.meshes), total.mean_posterior, total.median_ms,
+                          total.nodes, total.of > 0 ? Cell(total.right) : none, total.of > 0 ? Cell(total.of) : none,
+                          "mean gap and posterior, median time, sums of nodes and right"});
+  return to_csv(table);
 }
 
 }  // namespace toposcope

@@ -2,31 +2,36 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include "toposcope/types.h"
+#include "sample/sample.h"
+#include "sample/scan.h"
 
 namespace toposcope {
 
-/// One mesh to evaluate, from a file or to be made.
+/// A mesh to be read.
+struct MeshFile {
+  std::filesystem::path path;
+  std::filesystem::path truth;  ///< empty: none
+  std::string class_name;       ///< empty: the truth's
+};
+
+/// A mesh to be made: exact, or exact and decimated, or scanned.
+struct MadeMesh {
+  SampleRequest object = {};
+  Index decimate_to = 0;                  ///< faces that the quadric error keeps of the exact mesh; 0: all
+  std::optional<ScanSettings> scan = {};  ///< none: not scanned
+};
+
+/// One mesh to evaluate.
 struct DatasetMesh {
   std::string name;     ///< in tables of single meshes
   std::string object;   ///< row of the tables: meshes of one object differ in their variant
   std::string variant;  ///< column of the tables: "5K"; empty for files
-
-  std::filesystem::path file;   ///< empty: made
-  std::filesystem::path truth;  ///< empty: none
-  std::string class_name;       ///< empty: the truth's
-
-  std::string kind, preset;
-  std::map<std::string, double> parameters;
-  bool random = false, scan = false, decimated = false;
-  Index faces = 0, view = 0;
-  std::optional<double> noise;
-  std::uint64_t seed = 1;
+  std::variant<MeshFile, MadeMesh> source;
 };
 
 /// Meshes whose truth is known and the model that labels them (schemas/dataset.schema.json).

@@ -3,6 +3,7 @@
 
 #include "evaluation/dataset.h"
 #include "mesh/mesh.h"
+#include "mesh/repair.h"
 #include "toposcope/context.h"
 #include "truth/truth.h"
 
@@ -12,7 +13,8 @@ class PluginHost;
 
 struct KnownMesh {
   Mesh mesh;
-  Truth truth;  ///< empty where none is known
+  RepairReport repair;
+  Truth truth = {};  ///< empty where none is known
 };
 
 /// Reads or makes a mesh of a data set. \throw MeshError, UsageError

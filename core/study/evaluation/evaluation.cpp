@@ -30,6 +30,7 @@ class MeshContext final : public Context {
     const std::size_t step = std::max<std::size_t>(1, grain);
     for (std::size_t first = 0; first < count; first += step) body(first, std::min(count, first + step));
   }
+  std::uint64_t memory_budget() const override { return outer_.memory_budget() / (alone_ ? 1 : outer_.threads()); }
 
  private:
   Context& outer_;
@@ -47,7 +48,7 @@ class Evaluator {
     evaluation.name = item.name;
     evaluation.object = item.object;
     evaluation.variant = item.variant;
-    evaluation.expected_class = item.class_name;
+    if (const auto* file = std::get_if<MeshFile>(&item.source)) evaluation.expected_class = file->class_name;
     try {
       const KnownMesh known = load(item, host_, context);
       if (!model_.classes.empty() && evaluation.expected_class.empty())
@@ -72,7 +73,8 @@ class Evaluator {
   void label(std::size_t number, const KnownMesh& known, MeshEvaluation& evaluation, Context& context) const {
     const auto start = std::chrono::steady_clock::now();
     const Analysis analysis = analyze(known.mesh, model_, stations_, {}, context);
-    const Result result = explain(analysis, model_, evaluation.name, stations_, context);
+    Result result = explain(analysis, model_, evaluation.name, stations_, context);
+    result.repair = known.repair;
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     evaluation.time_ms = took.count();
     evaluation.faces = result.faces;

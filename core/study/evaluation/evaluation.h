@@ -8,6 +8,7 @@
 
 #include "evaluation/dataset_mesh.h"
 #include "result/result.h"
+#include "table/table.h"
 #include "truth/judgement.h"
 
 namespace toposcope {
@@ -88,19 +89,11 @@ std::vector<const MeshEvaluation*> all_of(const Evaluation& evaluation);
 
 // ---- as tables ----
 
-struct Table {
-  std::string title;
-  std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;
-  std::string note;
-};
 /// In the order of reading: distances (Table 6.1), classes (Table 6.3) or confusion, features, reliability, what went
 /// wrong, time.
 std::vector<Table> tables(const Evaluation& evaluation);
 /// What differs from an earlier evaluation of the same name, from its JSON. \throw UsageError  it is none
 std::vector<Table> changes(const Evaluation& evaluation, const std::string& baseline_json, const std::string& file);
-std::string to_text(const std::vector<Table>& tables);
-std::string to_markdown(const std::vector<Table>& tables);
 
 /// One line that says how good it is.
 std::string headline(const Evaluation& evaluation);

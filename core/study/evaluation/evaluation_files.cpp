@@ -4,7 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/csv.h"
 #include "base/errors.h"
 #include "evaluation/evaluation.h"
 
@@ -62,10 +61,6 @@ Json as_json(const Evaluation& evaluation) {
   return json;
 }
 
-std::string number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.8g}", value) : "";
-}
-
 /// What was said of a feature or class, before and now.
 using Verdicts = std::map<std::string, std::string>;
 
@@ -95,26 +90,31 @@ std::string to_json(const std::vector<Evaluation>& evaluations) {
 }
 
 std::string to_csv(const std::vector<Evaluation>& evaluations) {
-  std::string text =
-      "dataset,mesh,object,variant,faces,feature,verdict,distance,distance_edges,distance_diagonal,probability,time_"
-      "ms\n";
+  const auto number = [](const char* name) { return Column(name, "number", "", "{:.8g}"); };
+  Table table{.columns = {"dataset", "mesh", "object", "variant", "faces", "feature", "verdict", number("distance"),
+                          number("distance_edges"), number("distance_diagonal"), number("probability"),
+                          Column("time_ms", "ms", "ms", "{:.3f}")}};
   for (const Evaluation& evaluation : evaluations)
     for (const MeshEvaluation& mesh : evaluation.meshes) {
-      const std::string head = fmt::format("{},{},{},{},{}", csv_field(evaluation.dataset), csv_field(mesh.name),
-                                           csv_field(mesh.object), csv_field(mesh.variant), mesh.faces);
+      const auto add = [&](const std::string& feature, std::string_view verdict, const std::vector<Cell>& numbers) {
+        std::vector<Cell> row = {evaluation.dataset, mesh.name, mesh.object, mesh.variant,
+                                 mesh.faces,         feature,   verdict};
+        row.insert(row.end(), numbers.begin(), numbers.end());
+        row.push_back(mesh.time_ms);
+        table.rows.push_back(std::move(row));
+      };
       for (const FeatureJudgement& f : mesh.judgement.features)
-        text += fmt::format("{},{},{},{},{},{},{},{:.3f}\n", head, csv_field(f.feature), to_string(f.verdict),
-                            number(f.distance), number(f.distance / mesh.judgement.mean_edge),
-                            number(f.distance / mesh.judgement.diagonal), number(f.probability), mesh.time_ms);
+        add(f.feature, to_string(f.verdict),
+            {f.distance, f.distance / mesh.judgement.mean_edge, f.distance / mesh.judgement.diagonal, f.probability});
       if (mesh.class_known())
-        text += fmt::format("{},class {},{},,,,{},{:.3f}\n", head, csv_field(mesh.expected_class),
-                            mesh.class_right() ? "right" : "wrong", number(mesh.class_probability), mesh.time_ms);
+        add("class " + mesh.expected_class, mesh.class_right() ? "right" : "wrong",
+            {Cell(), Cell(), Cell(), mesh.class_probability});
     }
-  return text;
+  return to_csv(table);
 }
 
 std::vector<Table> changes(const Evaluation& evaluation, const std::string& baseline_json, const std::string& file) {
-  Table table{"Changed since " + file, {"mesh", "", "before", "now"}, {}, {}};
+  Table table{"Changed since " + file, {"mesh", "", "before", "now"}, {}, ""};
   try {
     const nlohmann::json root = nlohmann::json::parse(baseline_json);
     if (root.value("schema", "") != "toposcope.evaluation/1")

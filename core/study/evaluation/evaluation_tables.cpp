@@ -57,18 +57,19 @@ std::vector<const MeshEvaluation*> select(const std::vector<const MeshEvaluation
 
 /// The shape of the dissertation's Table 6.1: per object its features, a column per resolution.
 Table distance_table(const std::vector<const MeshEvaluation*>& meshes) {
-  Table table{"Mean distance from the marks to the labelled shape, in mean edges", {"object", "feature"}, {}, {}};
+  Table table{"Mean distance from the marks to the labelled shape, in mean edges", {"object", "feature"}, {}, ""};
   const auto objects = distinct(meshes, [](const MeshEvaluation& m) { return m.object; });
   const auto variants = distinct(meshes, [](const MeshEvaluation& m) { return m.variant; });
-  for (const std::string& variant : variants) table.header.push_back(variant.empty() ? "distance" : variant);
+  for (const std::string& variant : variants) table.columns.push_back(variant.empty() ? "distance" : variant);
   const std::vector<FeatureSummary> features = summarize(meshes);
   for (const std::string& object : objects)
     for (std::size_t f = 0; f + 1 < features.size(); ++f) {
-      std::vector<std::string> row = {f == 0 ? object : "", features[f].name};
+      std::vector<Cell> row = {f == 0 ? object : "", features[f].name};
       bool any = false;
       for (const std::string& variant : variants) {
-        row.push_back(cell(select(meshes, object, variant), features[f].name));
-        any = any || !row.back().empty();
+        const std::string distance = cell(select(meshes, object, variant), features[f].name);
+        any = any || !distance.empty();
+        row.push_back(distance);
       }
       if (any) table.rows.push_back(std::move(row));
     }
@@ -80,17 +81,17 @@ Table distance_table(const std::vector<const MeshEvaluation*>& meshes) {
 
 /// The shape of Table 6.3: which relationships hold, and the class.
 Table class_table(const std::vector<const MeshEvaluation*>& meshes) {
-  Table table{"Relationships satisfied, and classification", {"mesh"}, {}, {}};
+  Table table{"Relationships satisfied, and classification", {"mesh"}, {}, ""};
   std::set<std::string> satisfied;
   for (const MeshEvaluation* mesh : meshes) satisfied.insert(mesh->satisfied.begin(), mesh->satisfied.end());
   std::vector<std::string> names(satisfied.begin(), satisfied.end());
   std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
     return a.size() != b.size() ? a.size() < b.size() : a < b;
   });
-  table.header.insert(table.header.end(), names.begin(), names.end());
-  table.header.insert(table.header.end(), {"class", "probability", ""});
+  table.columns.insert(table.columns.end(), names.begin(), names.end());
+  table.columns.insert(table.columns.end(), {"class", "probability", ""});
   for (const MeshEvaluation* mesh : meshes) {
-    std::vector<std::string> row = {mesh->name};
+    std::vector<Cell> row = {mesh->name};
     for (const std::string& name : names)
       row.push_back(std::find(mesh->satisfied.begin(), mesh->satisfied.end(), name) != mesh->satisfied.end() ? "•"
                                                                                                              : "");
@@ -103,15 +104,15 @@ Table class_table(const std::vector<const MeshEvaluation*>& meshes) {
 }
 
 Table confusion_table(const std::vector<const MeshEvaluation*>& meshes) {
-  Table table{"Confusion: what it is, and what it was taken for", {"class"}, {}, {}};
+  Table table{"Confusion: what it is, and what it was taken for", {"class"}, {}, ""};
   const auto counts = confusion(meshes);
   std::set<std::string> found;
   for (const auto& [expected, row] : counts)
     for (const auto& [name, n] : row) found.insert(name);
-  table.header.insert(table.header.end(), found.begin(), found.end());
-  table.header.push_back("right");
+  table.columns.insert(table.columns.end(), found.begin(), found.end());
+  table.columns.push_back("right");
   for (const auto& [expected, row] : counts) {
-    std::vector<std::string> cells = {expected};
+    std::vector<Cell> cells = {expected};
     std::size_t all = 0;
     for (const std::string& name : found) {
       const auto at = row.find(name);
@@ -130,7 +131,7 @@ Table feature_table(const std::vector<const MeshEvaluation*>& meshes) {
               {"feature", "right", "of", "", "wrong", "missed", "spurious", "absent", "distance", "mean edges", "worst",
                "% of diagonal"},
               {},
-              {}};
+              ""};
   for (const FeatureSummary& s : summarize(meshes))
     table.rows.push_back({s.name, std::to_string(s.right + s.absent), std::to_string(s.all()),
                           percent(s.right + s.absent, s.all()), std::to_string(s.wrong), std::to_string(s.missed),
@@ -144,7 +145,7 @@ Table feature_table(const std::vector<const MeshEvaluation*>& meshes) {
 
 Table reliability_table(const std::vector<const MeshEvaluation*>& meshes) {
   const Reliability all = reliability(meshes);
-  Table table{"Probabilities", {"reported", "count", "mean", "right", ""}, {}, {}};
+  Table table{"Probabilities", {"reported", "count", "mean", "right", ""}, {}, ""};
   for (std::size_t b = 0; b < all.bins.size(); ++b) {
     const ReliabilityBin& bin = all.bins[b];
     if (bin.count == 0) continue;
@@ -174,7 +175,7 @@ std::string failure(const MeshEvaluation& mesh) {
 }
 
 Table failure_table(const Evaluation& evaluation) {
-  Table table{"What is not right, with its probability; not offered: no candidate was right", {"mesh", ""}, {}, {}};
+  Table table{"What is not right, with its probability; not offered: no candidate was right", {"mesh", ""}, {}, ""};
   std::size_t more = 0;
   for (const MeshEvaluation& mesh : evaluation.meshes) {
     if (evaluation.right(mesh)) continue;
@@ -185,11 +186,6 @@ Table failure_table(const Evaluation& evaluation) {
   }
   if (more > 0) table.note = fmt::format("... and {} more.", more);
   return table;
-}
-
-std::size_t characters(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 }  // namespace
@@ -231,50 +227,6 @@ std::vector<Table> tables(const Evaluation& evaluation) {
   if (reliability(meshes).count > 0) all.push_back(reliability_table(meshes));
   if (Table failures = failure_table(evaluation); !failures.rows.empty()) all.push_back(std::move(failures));
   return all;
-}
-
-std::string to_text(const std::vector<Table>& tables) {
-  std::string text;
-  for (const Table& table : tables) {
-    std::vector<std::size_t> widths;
-    for (const std::string& head : table.header) widths.push_back(characters(head));
-    for (const auto& row : table.rows)
-      for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], characters(row[c]));
-    const auto line = [&](const std::vector<std::string>& cells) {
-      std::string out = " ";
-      for (std::size_t c = 0; c < cells.size(); ++c) {
-        out += " " + cells[c];
-        if (c + 1 < cells.size()) out += std::string(widths[c] - characters(cells[c]) + 1, ' ');
-      }
-      while (out.back() == ' ') out.pop_back();
-      return out + "\n";
-    };
-    text += "\n" + table.title + "\n" + line(table.header);
-    for (const auto& row : table.rows) text += line(row);
-    if (!table.note.empty()) text += "  " + table.note + "\n";
-  }
-  return text;
-}
-
-std::string to_markdown(const std::vector<Table>& tables) {
-  const auto line = [](const std::vector<std::string>& cells) {
-    std::string out = "|";
-    for (const std::string& cell : cells) {
-      std::string escaped;
-      for (const char c : cell) escaped += c == '|' ? "\\|" : std::string(1, c);
-      out += " " + escaped + " |";
-    }
-    return out + "\n";
-  };
-  std::string text;
-  for (const Table& table : tables) {
-    text += "\n**" + table.title + "**\n\n" + line(table.header) + "|";
-    for (std::size_t c = 0; c < table.header.size(); ++c) text += "---|";
-    text += "\n";
-    for (const auto& row : table.rows) text += line(row);
-    if (!table.note.empty()) text += "\n" + table.note + "\n";
-  }
-  return text;
 }
 
 }  // namespace toposcope

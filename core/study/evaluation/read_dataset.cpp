@@ -15,6 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What is decimated had at least so many faces.
+constexpr Index fine_faces = 20000;
+
 /// "5K", "700"
 std::string in_thousands(Index faces) {
   return faces % 1000 == 0 ? std::to_string(faces / 1000) + "K" : std::to_string(faces);
@@ -68,10 +71,9 @@ class Reader {
     for (const fs::path& each : found) {
       DatasetMesh mesh;
       mesh.name = mesh.object = each.stem().string();
-      mesh.file = each;
-      mesh.truth = truth_beside(entry["truth"] ? beside(entry["truth"].Scalar()) / each.filename() : each);
-      if (entry["class"]) mesh.class_name = entry["class"].Scalar();
-      mesh.seed = seed_;
+      mesh.source =
+          MeshFile{each, truth_beside(entry["truth"] ? beside(entry["truth"].Scalar()) / each.filename() : each),
+                   entry["class"] ? entry["class"].Scalar() : ""};
       dataset_.meshes.push_back(std::move(mesh));
     }
   }
@@ -82,32 +84,57 @@ class Reader {
       for (const YAML::Node& kind : entry["kind"]) kinds.push_back(kind.Scalar());
     else
       kinds.push_back(entry["kind"].Scalar());
-    DatasetMesh common;
-    if (entry["preset"]) common.preset = entry["preset"].Scalar();
-    if (entry["noise"]) common.noise = entry["noise"].as<double>();
-    if (entry["view"]) common.view = entry["view"].as<Index>();
-    common.scan = entry["scan"] && entry["scan"].as<bool>();
-    common.decimated = entry["decimated"] && entry["decimated"].as<bool>();
-    if (common.scan && common.decimated)
-      errors_.add(location_of(entry["decimated"], file_.string()),
-                  "'scan' and 'decimated' exclude each other: leave one out");
-    if (entry["set"])
-      for (const auto& parameter : entry["set"])
-        common.parameters[parameter.first.Scalar()] = parameter_value(parameter.second);
-    common.random = entry["random"].IsDefined();
-    const auto draws = common.random ? entry["random"].as<std::size_t>() : kinds.size();
+    const MadeMesh common = made(entry);
+    const bool random = common.object.random;
+    const auto draws = random ? entry["random"].as<std::size_t>() : kinds.size();
     for (std::size_t draw = 0; draw < draws; ++draw)
       for (const YAML::Node& faces : entry["faces"]) {
-        DatasetMesh mesh = common;
-        mesh.kind = kinds[draw % kinds.size()];
-        mesh.faces = faces.as<Index>();
-        mesh.variant = in_thousands(mesh.faces);
-        mesh.object = entry["name"] ? entry["name"].Scalar() : mesh.preset.empty() ? mesh.kind : mesh.preset;
-        mesh.seed = seed_ + draw;
-        mesh.name = mesh.object + (common.random ? " " + std::to_string(mesh.seed) : "") + " " + mesh.variant;
+        MadeMesh source = common;
+        SampleRequest& object = source.object;
+        object.kind = kinds[draw % kinds.size()];
+        object.faces = faces.as<Index>();
+        object.seed = seed_ + draw;
+        if (source.scan) {
+          source.scan->faces = object.faces;
+          source.scan->seed = object.seed;
+        }
+        DatasetMesh mesh;
+        mesh.variant = in_thousands(object.faces);
+        mesh.object = entry["name"] ? entry["name"].Scalar() : object.preset.empty() ? object.kind : object.preset;
+        mesh.name = mesh.object + (random ? " " + std::to_string(object.seed) : "") + " " + mesh.variant;
+        if (is_set(entry["decimated"])) {
+          source.decimate_to = object.faces;
+          object.faces = std::max(fine_faces, object.faces);
+        }
+        mesh.source = std::move(source);
         dataset_.meshes.push_back(std::move(mesh));
       }
   }
+
+  /// What all objects of an entry have in common.
+  MadeMesh made(const YAML::Node& entry) {
+    MadeMesh common;
+    SampleRequest& object = common.object;
+    if (entry["preset"]) object.preset = entry["preset"].Scalar();
+    if (entry["set"])
+      for (const auto& parameter : entry["set"])
+        object.parameters[parameter.first.Scalar()] = parameter_value(parameter.second);
+    object.random = entry["random"].IsDefined();
+    if (is_set(entry["scan"])) {
+      common.scan.emplace();
+      common.scan->parts = false;  // features are judged, not parts
+      if (entry["view"]) common.scan->seen_from = entry["view"].as<Index>();
+      if (entry["noise"]) common.scan->noise_rel = entry["noise"].as<double>();
+    } else if (entry["noise"]) {
+      object.noise_rel = entry["noise"].as<double>();
+    }
+    if (common.scan && is_set(entry["decimated"]))
+      errors_.add(location_of(entry["decimated"], file_.string()),
+                  "'scan' and 'decimated' exclude each other: leave one out");
+    return common;
+  }
+
+  static bool is_set(const YAML::Node& node) { return node && node.as<bool>(); }
 
   static double parameter_value(const YAML::Node& node) {
     bool truth = false;

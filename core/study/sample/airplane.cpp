@@ -39,8 +39,8 @@ Implicit boxed(const LiftingSurface& surface, double margin) {
 }
 
 /// The outline from where it leaves the rest of the airplane to where it meets it again.
-SampleFeature edge_feature(const std::string& name, const LiftingSurface& surface, const Implicit& whole, bool mirrored,
-                           std::size_t count) {
+TruthFeature edge_feature(const std::string& name, const LiftingSurface& surface, const Implicit& whole, bool mirrored,
+                          std::size_t count) {
   const std::vector<LiftingSurface::Piece> pieces = surface.outline();
   double total = 0;
   for (const auto& piece : pieces) total += piece.length;
@@ -68,7 +68,7 @@ SampleFeature edge_feature(const std::string& name, const LiftingSurface& surfac
     }
     return outside;
   };
-  SampleFeature feature{name, "line-group", {}, {}, {}, {}};
+  TruthFeature feature{name, "line-group", {}, {}, {}, {}};
   constexpr int steps = 200;
   int first = 0, last = steps;
   while (first <= steps && !free(total * first / steps)) ++first;

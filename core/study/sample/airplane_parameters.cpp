@@ -221,9 +221,8 @@ void check_airplane(const Airplane& a) {
   const bool on_wing = a.engine_drop <= 0.8 * a.engine_radius;
   const bool on_pylon = a.engine_drop >= 2.2 * a.engine_radius + half_wing && a.engine_drop <= 6 * a.engine_radius;
   require(on_wing || on_pylon, kind, "engine_drop", a.engine_drop,
-          "the engine must sit in the wing (at most 0.8 engine_radius) or hang clear of it (from 2.2 engine_radius and "
-          "half "
-          "the wing's thickness, here " +
+          "the engine must sit in the wing (at most 0.8 engine_radius) or hang clear of it (from 2.2 engine_radius "
+          "and half the wing's thickness, here " +
               std::to_string(2.2 * a.engine_radius + half_wing) + ", to 6 engine_radius)",
           "choose it so");
   require(a.engine_length <= 1.2 * a.wing.chord(outermost) + 0.2 * a.wing.root_chord, kind, "engine_length",

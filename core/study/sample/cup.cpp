@@ -87,8 +87,8 @@ Vec3 centroid_of_ring(const std::vector<Vec3>& ring) {
   return moment / length;
 }
 
-SampleFeature bottom_feature(double radius, double height) {
-  SampleFeature feature{"bottom", "plane", {{"point", {0, 0, height}}, {"normal", {0, 0, -1}}}, {}, {}, {}};
+TruthFeature bottom_feature(double radius, double height) {
+  TruthFeature feature{"bottom", "plane", {{"point", {0, 0, height}}, {"normal", {0, 0, -1}}}, {}, {}, {}};
   constexpr int count = 40;  // sunflower: an even cover of the disc
   const double golden = pi * (3 - std::sqrt(5.0));
   for (int i = 0; i < count; ++i) {
@@ -98,8 +98,8 @@ SampleFeature bottom_feature(double radius, double height) {
   return feature;
 }
 
-SampleFeature handle_feature(const Cup& c, const Solid& solid, const Implicit& body, const Implicit& handle) {
-  SampleFeature feature{"handleCon", "line-group", {}, {}, {}, {}};
+TruthFeature handle_feature(const Cup& c, const Solid& solid, const Implicit& body, const Implicit& handle) {
+  TruthFeature feature{"handleCon", "line-group", {}, {}, {}, {}};
   std::vector<double> ends;
   for (const bool upper : {true, false}) {
     const double z = c.handle_center + (upper ? 0.5 : -0.5) * c.handle_height;
@@ -107,7 +107,7 @@ SampleFeature handle_feature(const Cup& c, const Solid& solid, const Implicit& b
     ends.insert(ends.end(), {end.x(), end.y(), end.z()});
     constexpr int marks = 32, between = 8;
     const std::vector<Vec3> ring = fillet_ring(c, solid, body, handle, end, marks * between);
-    MarkGroup& group = feature.groups.emplace_back();
+    TruthGroup& group = feature.groups.emplace_back();
     group.name = upper ? "upper" : "lower";
     group.centroid = centroid_of_ring(ring);
     for (std::size_t i = 0; i < ring.size(); i += between) {

@@ -180,7 +180,7 @@ std::vector<RandomRange> cup_ranges() {
 
 SampleKind cup_kind() {
   const auto choice = [](const char* name, const char* value, const char* choices, const char* meaning) {
-    return OptionRow{name, OptionType::text, "", value, choices, "", meaning};
+    return OptionRow{name, OptionType::text, "", value, "", "", meaning, choices};
   };
   return {
       "cup",

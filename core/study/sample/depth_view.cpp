@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "toposcope/system/random.h"
+
 namespace toposcope {
 
 namespace {
@@ -30,23 +32,13 @@ std::vector<Plane> planes_of(const TriangleSoup& mesh, Context& context) {
   return planes;
 }
 
-/// Mixes the bits of a counter (splitmix64, Steele et al. 2014).
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
-/// Standard normal numbers (Box and Muller 1958), from which the pixels draw.
+/// Standard normal numbers, from which the pixels draw.
 std::vector<float> normal_numbers(std::uint64_t seed) {
   std::vector<float> numbers(65536);
   for (std::size_t i = 0; i < numbers.size(); i += 2) {
-    const std::uint64_t a = mix(seed + i), b = mix(seed + i + 1);
-    const double radius = std::sqrt(-2 * std::log((static_cast<double>(a >> 11) + 0.5) * 0x1p-53));
-    const double angle = 2 * pi * static_cast<double>(b >> 11) * 0x1p-53;
-    numbers[i] = static_cast<float>(radius * std::cos(angle));
-    numbers[i + 1] = static_cast<float>(radius * std::sin(angle));
+    const auto pair = normal_pair(uniform_open(splitmix64(seed + i)), uniform_closed_open(splitmix64(seed + i + 1)));
+    numbers[i] = static_cast<float>(pair[0]);
+    numbers[i + 1] = static_cast<float>(pair[1]);
   }
   return numbers;
 }
@@ -135,13 +127,13 @@ class Camera {
   }
 
   void add_noise(const DepthView& view, std::uint64_t number) {
-    const std::uint64_t key = mix(scanner_.seed ^ mix(number + 1));
+    const std::uint64_t key = splitmix64(scanner_.seed ^ splitmix64(number + 1));
     std::size_t at = 0;
     for (int y = 0; y < rows_; ++y)
       for (int x = 0; x < columns_; ++x, ++at) {
         Pixel& pixel = pixels_[at];
         if (pixel.w == 0) continue;
-        const double along = scanner_.noise * static_cast<double>(noise_[mix(key + at) % noise_.size()]);
+        const double along = scanner_.noise * static_cast<double>(noise_[splitmix64(key + at) % noise_.size()]);
         pixel.w = static_cast<float>(1 / (1 / static_cast<double>(pixel.w) + along / ray_length(view, x, y)));
       }
   }

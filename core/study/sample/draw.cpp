@@ -8,6 +8,7 @@
 
 #include "base/errors.h"
 #include "base/nearest_name.h"
+#include "toposcope/system/random.h"
 
 namespace toposcope {
 
@@ -16,21 +17,13 @@ namespace {
 constexpr int most_draws = 1000;
 constexpr int draws_per_decision = 25;
 
-/// Neighbouring seeds must give unrelated objects, unrelated to the noise of the same seed too (Steele, Lea and Flood
-/// 2014, splitmix64).
-std::uint64_t scramble(std::uint64_t seed) {
-  std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return z ^ (z >> 31);
-}
-
 class Draw {
  public:
-  explicit Draw(std::uint64_t seed) : engine_(scramble(seed)) {}
+  /// Neighbouring seeds must give unrelated objects, unrelated to the noise of the same seed too.
+  explicit Draw(std::uint64_t seed) : engine_(splitmix64(seed)) {}
 
   double operator()(const RandomRange& range, OptionType type, double unit) {
-    const double share = static_cast<double>(engine_() >> 11) * 0x1p-53;
+    const double share = uniform_closed_open(engine_());
     if (type == OptionType::boolean) return share < range.high ? 1 : 0;
     if (range.step > 0) {
       const double steps = std::floor((range.high - range.low) / range.step + 1.5);

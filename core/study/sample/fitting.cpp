@@ -143,9 +143,9 @@ double narrowest_gap(const Fitting& t) {
   return gap;
 }
 
-SampleFeature rim(const Fitting& t, const Pipe& pipe) {
+TruthFeature rim(const Fitting& t, const Pipe& pipe) {
   const double inset = t.edge * (1 - std::sqrt(0.5));  // the rounded edge's 45-degree point
-  SampleFeature feature =
+  TruthFeature feature =
       circle_feature(pipe.rim, (pipe.length - inset) * pipe.direction, pipe.direction, t.hub() - inset);
   feature.parameters.push_back({"band", {t.mouth(), t.hub()}});
   return feature;

@@ -12,6 +12,7 @@
 #include "mesh/mesh.h"
 #include "plugin/manifest.h"
 #include "toposcope/context.h"
+#include "truth/truth.h"
 
 namespace toposcope {
 
@@ -56,24 +57,6 @@ struct SampleRequest {
   bool random = false;      ///< draw the parameters that are not given
 };
 
-/// A feature of the object with its exact shape.
-/// A ring of marks.
-struct MarkGroup {
-  std::string name;
-  std::vector<Index> members;  ///< into the feature's points
-  Vec3 centroid;               ///< of the whole exact ring, whatever marks of it are kept
-};
-
-struct SampleFeature {
-  std::string name;
-  std::string shape;  ///< circle, plane, line-group
-  /// As in result.json: a number (`closed`: 0 or 1), a point or direction (3 values), several points (multiples of 3).
-  std::vector<std::pair<std::string, std::vector<double>>> parameters;
-  std::vector<Vec3> points;     ///< on the exact surface, before noise; empty where the object lacks the feature
-  std::vector<Index> vertices;  ///< for each point the mesh vertex nearest to it; no vertex twice
-  std::vector<MarkGroup> groups;
-};
-
 /// How an object was scanned (scan.h).
 struct ScanRecord {
   Index viewpoints = 0;
@@ -85,13 +68,13 @@ struct ScanRecord {
   Vec3 translation = Vec3::Zero();                                               ///< + translation
 };
 
+/// A made mesh, how it was made, and its truth.
 struct Sample {
-  std::string kind;
   std::vector<std::pair<std::string, double>> parameters;  ///< all, in the order of the kind's table
   double noise_rel = 0;
   std::uint64_t seed = 1;
   TriangleSoup mesh;
-  std::vector<SampleFeature> features;
+  Truth truth;  ///< its class is the kind
   std::vector<std::string> part_names;
   std::vector<std::uint8_t> face_part;  ///< for each triangle an index into part_names
   double thinnest = 0, gap = 0;         ///< least thickness of material, least gap between parts; 0: not known
@@ -99,9 +82,8 @@ struct Sample {
 };
 
 /// Makes a closed, oriented, manifold mesh of the object and its truth.
-/// \throw UsageError  unknown kind, preset or parameter, value out of range, parameters that contradict each other, a
-/// face
-///        count too low for the object
+/// \throw UsageError  unknown kind, preset or parameter, a value out of range, parameters that contradict each other,
+/// fewer faces than the object needs
 Sample make_sample(const SampleRequest& request, Context& context);
 
 /// The truth as JSON (schemas/truth.schema.json).

@@ -17,6 +17,7 @@
 #include "sample/scan_parts.h"
 #include "sample/thin.h"
 #include "toposcope/geometry/spread_directions.h"
+#include "toposcope/system/random.h"
 
 namespace toposcope {
 
@@ -68,14 +69,9 @@ std::vector<Vec3> chosen_directions(const ScanSettings& settings, const Vec3& si
   return directions;
 }
 
-/// Numbers in [0, 1), the same with every standard library.
-struct Uniform {
-  std::mt19937_64 engine;
-  double operator()() { return static_cast<double>(engine() >> 11) * 0x1p-53; }
-};
-
 /// A uniformly distributed rotation (Shoemake 1992).
-Eigen::Matrix3d random_rotation(Uniform& uniform) {
+template <class Uniform>
+Eigen::Matrix3d random_rotation(Uniform uniform) {
   const double u = uniform(), a = 2 * pi * uniform(), b = 2 * pi * uniform();
   const double s = std::sqrt(1 - u), t = std::sqrt(u);
   return Eigen::Quaterniond(s * std::sin(a), s * std::cos(a), t * std::sin(b), t * std::cos(b))
@@ -96,10 +92,9 @@ DepthFusion fusion_for(const Sample& exact, const ScanSettings& settings, double
 }
 
 /// The steps from the raw surface to the mesh.
-std::vector<Stations::Filter> filters_for(PluginHost& host, Index faces, int smoothing) {
-  const auto plugin = [&](const std::string& id, const std::vector<GivenOption>& given) {
-    const PluginManifest& manifest = host.catalog().require(PluginKind::filters, id, "scan");
-    return Stations::Filter{id, host.filter(id, check_options(manifest.options, given, "scan: filter '" + id + "'"))};
+std::vector<FilterStation> filters_for(PluginHost& host, Index faces, int smoothing) {
+  const auto plugin = [&](const char* id, const std::vector<GivenOption>& given) {
+    return make_filter(host, id, given, "scan");
   };
   // Normalising is the slow step: it gets few faces more than are wanted, and needs no more than two rounds for that.
   return {plugin("taubin", {{"passes", std::to_string(smoothing)}}),
@@ -113,7 +108,8 @@ Sample scan(const Sample& exact, const ScanSettings& settings, PluginHost& host,
   check(settings);
   const Extent extent = extent_of(exact.mesh.positions);
   const double diagonal = extent.diagonal();
-  Uniform uniform{std::mt19937_64(settings.seed)};
+  std::mt19937_64 random(settings.seed);
+  const auto uniform = [&] { return uniform_closed_open(random()); };
   const Eigen::Matrix3d rotation = random_rotation(uniform);
   const Vec3 side = random_rotation(uniform).col(0);
   const Vec3 to = diagonal * (2 * Vec3(uniform(), uniform(), uniform()) - Vec3::Ones());
@@ -135,7 +131,7 @@ Sample scan(const Sample& exact, const ScanSettings& settings, PluginHost& host,
   const bool partial = settings.seen_from > 0;
   if (partial) keep_measured(raw, views, spacing + 3 * noise, context);
   keep_large_components(raw, !partial);
-  const std::string name = "the scan of the " + exact.kind;
+  const std::string name = "the scan of the " + exact.truth.class_name;
   if (raw.triangles.empty()) throw MeshError(name + ": nothing was seen; more viewpoints or less noise show something");
   const double share = partial ? std::min(1.0, area_of(raw) / area_of(exact.mesh)) : 1;
   const auto faces = static_cast<Index>(std::max(4.0, std::round(share * settings.faces)));

@@ -50,10 +50,10 @@ bool is_direction(const std::string& name) {
   return name == "normal" || name == "axis" || name == "direction";
 }
 
-void move_feature(SampleFeature& feature, const Pose& pose) {
+void move_feature(TruthFeature& feature, const Pose& pose) {
   const auto place = [&](const Vec3& p) { return Vec3(pose.rotation * (p - pose.center) + pose.translation); };
   for (Vec3& p : feature.points) p = place(p);
-  for (MarkGroup& group : feature.groups) group.centroid = place(group.centroid);
+  for (TruthGroup& group : feature.groups) group.centroid = place(group.centroid);
   for (auto& [name, values] : feature.parameters) {
     if (values.empty() || values.size() % 3 != 0) continue;
     for (std::size_t i = 0; i < values.size(); i += 3) {
@@ -65,7 +65,7 @@ void move_feature(SampleFeature& feature, const Pose& pose) {
 }
 
 /// Drops the points that are not near what is left of the surface; all of them when too few are left.
-void keep_near(SampleFeature& feature, const ClosestFace& surface, double reach) {
+void keep_near(TruthFeature& feature, const ClosestFace& surface, double reach) {
   std::vector<Vec3> points;
   std::vector<Index> number(feature.points.size(), no_index);
   for (std::size_t i = 0; i < number.size(); ++i)
@@ -78,11 +78,11 @@ void keep_near(SampleFeature& feature, const ClosestFace& surface, double reach)
     feature.groups.clear();
   }
   feature.points = std::move(points);
-  for (MarkGroup& group : feature.groups) {
+  for (TruthGroup& group : feature.groups) {
     std::erase_if(group.members, [&](Index i) { return number[i] == no_index; });
     for (Index& i : group.members) i = number[i];
   }
-  std::erase_if(feature.groups, [](const MarkGroup& group) { return group.members.empty(); });
+  std::erase_if(feature.groups, [](const TruthGroup& group) { return group.members.empty(); });
 }
 
 }  // namespace
@@ -113,7 +113,6 @@ void keep_large_components(TriangleSoup& mesh, bool closed) {
 
 Sample scanned_truth(const Sample& posed, const MeshView& mesh, const Pose& pose, double reach, Context& context) {
   Sample made;
-  made.kind = posed.kind;
   made.parameters = posed.parameters;
   made.thinnest = posed.thinnest;
   made.gap = posed.gap;
@@ -137,13 +136,13 @@ Sample scanned_truth(const Sample& posed, const MeshView& mesh, const Pose& pose
   }
   for (Vec3& p : made.mesh.positions) p += pose.translation;
 
-  made.features = posed.features;
-  for (SampleFeature& feature : made.features) move_feature(feature, pose);
+  made.truth = posed.truth;
+  for (TruthFeature& feature : made.truth.features) move_feature(feature, pose);
   if (reach > 0) {
     const ClosestFace surface(made.mesh.positions, made.mesh.triangles);
-    for (SampleFeature& feature : made.features) keep_near(feature, surface, reach);
+    for (TruthFeature& feature : made.truth.features) keep_near(feature, surface, reach);
   }
-  for (SampleFeature& feature : made.features) {
+  for (TruthFeature& feature : made.truth.features) {
     feature.vertices.clear();
     mark_vertices(feature, made.mesh.positions);
   }

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
 
-#include "base/errors.h"
-#include "sample/isosurface.h"
+#include "sample/mesh_solid.h"
 #include "sample/scan.h"
-#include "sample/solid.h"
 #include "toposcope/geometry/half_edges.h"
 
 namespace toposcope {
@@ -97,8 +92,8 @@ void refine(TriangleSoup& mesh, const Solid& solid, double spacing, const Refine
 }
 
 /// Whether some vertex lies within `reach` of each feature, at eight of its points.
-bool reaches(const TriangleSoup& mesh, const std::vector<SampleFeature>& features, double reach) {
-  return std::all_of(features.begin(), features.end(), [&](const SampleFeature& feature) {
+bool reaches(const TriangleSoup& mesh, const std::vector<TruthFeature>& features, double reach) {
+  return std::all_of(features.begin(), features.end(), [&](const TruthFeature& feature) {
     const std::size_t step = std::max<std::size_t>(1, feature.points.size() / 8);
     for (std::size_t i = 0; i < feature.points.size(); i += step)
       if (std::none_of(mesh.positions.begin(), mesh.positions.end(),
@@ -112,7 +107,7 @@ bool reaches(const TriangleSoup& mesh, const std::vector<SampleFeature>& feature
 
 Sample make_scan_target(const SampleRequest& request, Context& context) {
   Sample sample;
-  sample.kind = request.kind;
+  sample.truth.class_name = request.kind;
   sample.seed = request.seed;
   sample.parameters = requested_parameters(request);
   const Solid solid = make_solid(request.kind, sample.parameters);
@@ -126,12 +121,7 @@ Sample make_scan_target(const SampleRequest& request, Context& context) {
   for (int attempt = 0; attempt == 0 || (attempt < 4 && !reaches(sample.mesh, solid.features, 2 * spacing));
        ++attempt) {
     if (attempt > 0) spacing *= 0.7;
-    try {
-      sample.mesh = extract_isosurface(solid.surface, solid.low, solid.high, spacing, level, context);
-    } catch (const std::length_error&) {
-      throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", request.kind,
-                                   solid.thinnest_parameter, solid.thinnest));
-    }
+    sample.mesh = net_of(solid, request.kind, spacing, level, context);
   }
   for (std::size_t round = 0, first_new = 0; round < 4; ++round) {
     const std::size_t before = sample.mesh.positions.size();
@@ -140,16 +130,8 @@ Sample make_scan_target(const SampleRequest& request, Context& context) {
   }
   sample.gap = solid.gap;
   sample.thinnest = solid.thinnest;
-  sample.features = solid.features;
-  sample.part_names = solid.part_names;
-  sample.face_part.resize(sample.mesh.triangles.size());
-  context.parallel_for(sample.face_part.size(), 1024, [&](std::size_t first, std::size_t last) {
-    for (std::size_t f = first; f < last; ++f) {
-      const Triangle& t = sample.mesh.triangles[f];
-      const auto& p = sample.mesh.positions;
-      sample.face_part[f] = static_cast<std::uint8_t>(solid.part_of((p[t[0]] + p[t[1]] + p[t[2]]) / 3));
-    }
-  });
+  sample.truth.features = solid.features;
+  mark_parts(sample, solid, context);
   return sample;
 }
 

@@ -10,18 +10,18 @@
 #include <vector>
 
 #include "sample/implicit.h"
-#include "sample/sample.h"
+#include "sample/parameters.h"
 
 namespace toposcope {
 
 struct Solid {
   Implicit surface;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< contain the solid
-  double thinnest = 0;                  ///< least thickness of material or gap: no cell of the grid may reach across it
-  std::string thinnest_parameter;       ///< the parameter that sets it
-  double gap = 0;                       ///< least width of the gaps between parts; not more than it is
-  std::vector<SampleFeature> features;  ///< without `vertices`
-  bool typical = true;                  ///< of the class that the kind's model describes; `--random` draws no others
+  double thinnest = 0;                 ///< least thickness of material or gap: no cell of the grid may reach across it
+  std::string thinnest_parameter;      ///< the parameter that sets it
+  double gap = 0;                      ///< least width of the gaps between parts; not more than it is
+  std::vector<TruthFeature> features;  ///< without `vertices`
+  bool typical = true;                 ///< of the class that the kind's model describes; `--random` draws no others
   std::vector<std::string> part_names;
   std::function<std::size_t(const Vec3&)> part_of;  ///< part of a point on the surface
 };
@@ -32,23 +32,11 @@ inline double net_level(const Solid& solid) {
   return std::clamp((solid.gap - solid.thinnest) / 4, 0.0, 1.25 * solid.thinnest);
 }
 
-/// Values of all parameters of a kind, in the order of its table.
-using ParameterValues = std::vector<std::pair<std::string, double>>;
-
-/// Fills in the defaults and checks names and ranges. \throw UsageError
-ParameterValues check_parameters(const SampleKind& kind, const std::map<std::string, double>& given);
-/// All parameters of what is asked for, from its preset, drawn at random or as given. \throw UsageError
-ParameterValues requested_parameters(const SampleRequest& request);
-
 /// Values of all parameters for a request: given, of its preset, drawn, default. \throw UsageError  as make_sample does
 ParameterValues requested_parameters(const SampleRequest& request);
 
 /// Builds the exact solid of a kind. \throw UsageError  parameters that contradict each other
 Solid make_solid(const std::string& kind, const ParameterValues& parameters);
-
-/// Throws UsageError "kind: <constraint>; <parameter> is <value>: <remedy>" unless `holds`.
-void require(bool holds, const std::string& kind, const std::string& parameter, double value,
-             const std::string& constraint, const std::string& remedy);
 
 SampleKind cup_kind();
 Solid make_cup(const ParameterValues& parameters);
@@ -66,20 +54,10 @@ SampleKind airplane_kind();
 Solid make_airplane(const ParameterValues& parameters);
 
 /// For each point of a feature the nearest vertex; points whose vertex is taken already are dropped.
-void mark_vertices(SampleFeature& feature, const std::vector<Vec3>& positions);
-
-/// A row for a parameter that is a length, greater than `minimum` unless that is empty.
-OptionRow length_parameter(const char* name, const char* default_value, const char* minimum, const char* meaning);
-/// A row for a parameter that is an angle, in degrees.
-OptionRow angle_parameter(const char* name, const char* default_value, const char* meaning);
-/// A row for a part that may be left out: 0 or 1.
-OptionRow switch_parameter(const char* name, const char* default_value, const char* meaning);
-/// A parameter's text as the number that stands for it: 0 or 1, the place of a choice from 0, or itself.
-double parameter_number(const OptionRow& row, const std::string& text);
-double parameter(const ParameterValues& values, std::string_view name);
+void mark_vertices(TruthFeature& feature, const std::vector<Vec3>& positions);
 
 /// Truth of a circle: its parameters and `count` points on it.
-SampleFeature circle_feature(const std::string& name, const Vec3& center, const Vec3& normal, double radius,
-                             std::size_t count = 48);
+TruthFeature circle_feature(const std::string& name, const Vec3& center, const Vec3& normal, double radius,
+                            std::size_t count = 48);
 
 }  // namespace toposcope

@@ -84,7 +84,7 @@ class Thinning {
     std::vector<Index> number(position_.size(), no_index);
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
-    std::vector<Index> origin;
+    std::vector<Index> origin, kept;
     for (Index f = 0; f < start_.size() / 3; ++f) {
       if (start_[3 * f] == no_index) continue;
       Triangle& t = triangles.emplace_back();
@@ -94,11 +94,12 @@ class Thinning {
         if (number[v] == no_index) {
           number[v] = static_cast<Index>(positions.size());
           positions.push_back(position_[v]);
+          kept.push_back(v);
         }
         t[k] = number[v];
       }
     }
-    sink.set(positions, triangles, origin);
+    sink.set(positions, triangles, origin, kept);
   }
 
  private:

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "probability/symmetry.h"
+#include "pipeline/classes.h"
 
 namespace toposcope {
 namespace {
@@ -57,7 +57,8 @@ class Judge {
   Judge(const Stations& stations, const Limits& limits, const Judgement& scale)
       : stations_(stations), limits_(limits), scale_(scale) {}
 
-  FeatureJudgement feature(const FeatureReport& report, const TruthFeature& truth) const {
+  /// \param fitter  of the reported shape
+  FeatureJudgement feature(const FeatureReport& report, const ShapeFitter& fitter, const TruthFeature& truth) const {
     FeatureJudgement judged;
     judged.feature = truth.name;
     judged.probability = report.probability;
@@ -66,7 +67,7 @@ class Judge {
     } else if (!report.present) {
       judged.verdict = Verdict::missed;
     } else {
-      measure(report, truth, judged);
+      measure(report.shape, fitter, truth, judged);
       judged.verdict = judged.excess <= 1 ? Verdict::right : Verdict::wrong;
     }
     return judged;
@@ -78,11 +79,8 @@ class Judge {
     for (Index f = 0; f < model.features.size() && f < analysis.problem.variables.size(); ++f) {
       if (model.features[f].name != truth.name) continue;
       for (const Index candidate : analysis.problem.variables[f].candidates) {
-        FeatureReport report;
-        report.shape_plugin = model.features[f].shape.plugin;
-        report.shape = analysis.features.all[candidate].shape;
         FeatureJudgement judged;
-        measure(report, truth, judged);
+        measure(analysis.features.all[candidate].shape, *stations_.features[f].fitter, truth, judged);
         best = std::min(best, judged.excess);
       }
     }
@@ -90,18 +88,19 @@ class Judge {
   }
 
  private:
-  void measure(const FeatureReport& report, const TruthFeature& truth, FeatureJudgement& judged) const {
-    const ShapeFitter& fitter = *stations_.shapes.at(report.shape_plugin);
+  void measure(const FittedShape& shape, const ShapeFitter& fitter, const TruthFeature& truth,
+               FeatureJudgement& judged) const {
     if (!truth.groups.empty()) {
-      judged.distance = ends_distance(report.shape, truth.groups);
+      judged.distance = ends_distance(shape, truth.groups);
       judged.excess = judged.distance / (limits_.ends_diagonal * scale_.diagonal);
       return;
     }
-    const std::vector<Vec3> marks = truth.band ? in_band(truth.points, *truth.band, report.shape) : truth.points;
-    judged.distance = mean_distance(marks, report.shape, fitter);
-    if (report.shape.parameter("endpoints"))
-      judged.excess = std::max(judged.distance, mean_distance_back(report.shape, marks)) /
-                      (limits_.lines_diagonal * scale_.diagonal);
+    const std::optional<TruthBand> band = truth.band();
+    const std::vector<Vec3> marks = band ? in_band(truth.points, *band, shape) : truth.points;
+    judged.distance = mean_distance(marks, shape, fitter);
+    if (shape.parameter("endpoints"))
+      judged.excess =
+          std::max(judged.distance, mean_distance_back(shape, marks)) / (limits_.lines_diagonal * scale_.diagonal);
     else
       judged.excess = judged.distance / (limits_.shape_edges * scale_.mean_edge);
   }
@@ -145,8 +144,7 @@ Judgement judge(const Result& result, const Analysis& analysis, const Model& mod
   // A renaming is of the posed features alone; all others keep their names.
   Judgement best;
   double best_excess = std::numeric_limits<double>::infinity();
-  for (const std::vector<Index>& renamed :
-       renamings({model, posed.features, posed.relationships, stations.relation_ordered, model.classes.empty()})) {
+  for (const std::vector<Index>& renamed : renamings_of(posed, model, stations)) {
     std::vector<Index> name_of(model.features.size());
     std::iota(name_of.begin(), name_of.end(), 0);
     for (Index i = 0; i < renamed.size(); ++i) name_of[posed.features[i]] = posed.features[renamed[i]];
@@ -155,7 +153,8 @@ Judgement judge(const Result& result, const Analysis& analysis, const Model& mod
     for (Index f = 0; f < model.features.size(); ++f) {
       const TruthFeature* known = truth.find(model.features[f].name);
       if (!known) continue;
-      judged.features.push_back(judge.feature(result.features[name_of[f]], *known));
+      judged.features.push_back(
+          judge.feature(result.features[name_of[f]], *stations.features[name_of[f]].fitter, *known));
       const FeatureJudgement& last = judged.features.back();
       if (std::isfinite(last.excess)) excess += last.excess;
     }

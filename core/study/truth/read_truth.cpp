@@ -65,50 +65,93 @@ class Reader {
       fail(place, "expected an object with 'points' or 'groups'");
     TruthFeature feature;
     feature.name = name;
-    if (node.contains("points")) feature.points = triples(node["points"], place + "/points");
+    if (node.contains("shape") && node["shape"].is_string()) feature.shape = node["shape"];
+    read_marks(node, place, feature);
     if (node.contains("groups")) {
       if (!node["groups"].is_array()) fail(place + "/groups", "expected a list");
+      // The groups hold all marks; what is listed beside them are the same points.
+      if (!node["groups"].empty()) feature.points.clear(), feature.vertices.clear();
       for (std::size_t i = 0; i < node["groups"].size(); ++i)
-        feature.groups.push_back(group(node["groups"][i], place + "/groups/" + std::to_string(i)));
+        read_group(node["groups"][i], place + "/groups/" + std::to_string(i), feature);
     }
-    if (node.contains("parameters") && node["parameters"].contains("band"))
-      feature.band = band(node["parameters"], place + "/parameters");
+    if (node.contains("parameters")) read_parameters(node["parameters"], place + "/parameters", feature);
     return feature;
   }
 
-  TruthGroup group(const Json& node, const std::string& place) const {
-    if (!node.is_object() || !node.contains("points")) fail(place, "expected an object with 'points'");
-    TruthGroup group;
-    if (node.contains("name") && node["name"].is_string()) group.name = node["name"];
-    group.points = triples(node["points"], place + "/points");
-    if (group.points.empty()) fail(place + "/points", "a group has points; leave out the group instead");
-    for (const Vec3& p : group.points) group.centroid += p / static_cast<double>(group.points.size());
-    if (node.contains("centroid")) group.centroid = triple(node["centroid"], place + "/centroid");
-    return group;
+  /// Adds a node's points and, where they are given, their vertices.
+  void read_marks(const Json& node, const std::string& place, TruthFeature& feature) const {
+    if (!node.contains("points")) return;
+    const std::vector<Vec3> points = triples(node["points"], place + "/points");
+    feature.points.insert(feature.points.end(), points.begin(), points.end());
+    if (!node.contains("vertices")) return;
+    const Json& vertices = node["vertices"];
+    if (!vertices.is_array() || vertices.size() != points.size())
+      fail(place + "/vertices", "expected as many vertices as points");
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (!vertices[i].is_number_unsigned())
+        fail(place + "/vertices/" + std::to_string(i), "expected a vertex, from 0");
+      feature.vertices.push_back(vertices[i].get<Index>());
+    }
   }
 
-  TruthBand band(const Json& parameters, const std::string& place) const {
-    const Json& radii = parameters["band"];
-    if (!radii.is_array() || radii.size() != 2 || !parameters.contains("center") || !parameters.contains("normal"))
+  void read_group(const Json& node, const std::string& place, TruthFeature& feature) const {
+    if (!node.is_object() || !node.contains("points")) fail(place, "expected an object with 'points'");
+    TruthGroup& group = feature.groups.emplace_back();
+    if (node.contains("name") && node["name"].is_string()) group.name = node["name"];
+    const std::size_t first = feature.points.size();
+    read_marks(node, place, feature);
+    const std::size_t count = feature.points.size() - first;
+    if (count == 0) fail(place + "/points", "a group has points; leave out the group instead");
+    for (std::size_t i = first; i < feature.points.size(); ++i) {
+      group.members.push_back(static_cast<Index>(i));
+      group.centroid += feature.points[i] / static_cast<double>(count);
+    }
+    if (node.contains("centroid")) group.centroid = triple(node["centroid"], place + "/centroid");
+  }
+
+  /// A number, a truth value, or a list of numbers or points.
+  std::vector<double> parameter(const Json& node, const std::string& place) const {
+    if (node.is_boolean()) return {node.get<bool>() ? 1.0 : 0.0};
+    if (!node.is_array()) return {number(node, place)};
+    std::vector<double> values;
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      const std::string at = place + "/" + std::to_string(i);
+      if (node[i].is_array()) {
+        const Vec3 point = triple(node[i], at);
+        values.insert(values.end(), point.begin(), point.end());
+      } else {
+        values.push_back(number(node[i], at));
+      }
+    }
+    return values;
+  }
+
+  void read_parameters(const Json& node, const std::string& place, TruthFeature& feature) const {
+    if (!node.is_object()) fail(place, "expected an object");
+    for (const auto& [name, value] : node.items())
+      feature.parameters.emplace_back(name, parameter(value, place + "/" + name));
+    if (node.contains("band")) check_band(node, place, feature);
+  }
+
+  /// Its normal comes out of length 1.
+  void check_band(const Json& node, const std::string& place, TruthFeature& feature) const {
+    const Json& radii = node["band"];
+    if (!radii.is_array() || radii.size() != 2 || !node.contains("center") || !node.contains("normal"))
       fail(place, "'band' is two radii, beside 'center' and 'normal'");
-    TruthBand band{triple(parameters["center"], place + "/center"), triple(parameters["normal"], place + "/normal"),
-                   length(radii[0], place + "/band/0"), length(radii[1], place + "/band/1")};
-    if (!(band.normal.norm() > 0)) fail(place + "/normal", "expected a direction");
-    band.normal.normalize();
-    if (band.inner > band.outer) std::swap(band.inner, band.outer);
-    return band;
+    length(radii[0], place + "/band/0");
+    length(radii[1], place + "/band/1");
+    triple(node["center"], place + "/center");
+    Vec3 normal = triple(node["normal"], place + "/normal");
+    if (!(normal.norm() > 0)) fail(place + "/normal", "expected a direction");
+    normal.normalize();
+    for (auto& [name, values] : feature.parameters)
+      if (name == "normal") values.assign(normal.begin(), normal.end());
   }
 
   std::string file_;
 };
 
 }  // namespace
-
-const TruthFeature* Truth::find(std::string_view name) const {
-  for (const TruthFeature& feature : features)
-    if (feature.name == name) return &feature;
-  return nullptr;
-}
 
 Truth read_truth(const std::filesystem::path& path) {
   const std::string text = read_text_file(path, "truth file");

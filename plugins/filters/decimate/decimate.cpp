@@ -132,6 +132,7 @@ class Decimate final : public MeshFilter {
 
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
+    std::vector<Index> kept;  // per new vertex, that of the input
     std::vector<Index> number(halfedges.n_vertices(), no_index);
     for (const auto f : halfedges.faces()) {
       Triangle triangle;
@@ -141,6 +142,7 @@ class Decimate final : public MeshFilter {
         if (number[old] == no_index) {
           number[old] = static_cast<Index>(positions.size());
           positions.push_back(mesh.positions[old]);
+          kept.push_back(static_cast<Index>(old));
         }
         triangle[corner++] = number[old];
       }
@@ -150,7 +152,7 @@ class Decimate final : public MeshFilter {
       context.log(LogLevel::warning, "decimate: stopped at " + std::to_string(triangles.size()) + " faces, not " +
                                          std::to_string(faces_) +
                                          "; any further collapse would change the topology or turn a face over");
-    sink.set(positions, triangles, nearest_faces(mesh, positions, triangles, context));
+    sink.set(positions, triangles, nearest_faces(mesh, positions, triangles, context), kept);
   }
 
  private:

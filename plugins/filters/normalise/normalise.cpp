@@ -110,7 +110,7 @@ class Normalise final : public MeshFilter {
     for (Index f = 0; f < mesh.face_slots(); ++f)
       if (mesh.is_face(f))
         triangles.push_back({number[mesh.start[3 * f]], number[mesh.start[3 * f + 1]], number[mesh.start[3 * f + 2]]});
-    sink.set(positions, triangles, nearest_faces(input, positions, triangles, context));
+    sink.set(positions, triangles, nearest_faces(input, positions, triangles, context), {});
   }
 
   double edge_;  // of the box diagonal; 0: not set

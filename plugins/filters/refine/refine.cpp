@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -133,7 +134,11 @@ class Refine final : public MeshFilter {
       split_all(surface, sides);
       changed = true;
     }
-    if (changed) sink.set(surface.positions, surface.triangles, surface.origin);
+    if (!changed) return;
+    // Vertices of the input come first and stay where they are.
+    std::vector<Index> vertex_origin(surface.positions.size(), no_vertex);
+    std::iota(vertex_origin.begin(), vertex_origin.begin() + mesh.vertex_count(), Index{0});
+    sink.set(surface.positions, surface.triangles, surface.origin, vertex_origin);
   }
 
  private:

@@ -79,7 +79,10 @@ class Taubin final : public MeshFilter {
       }
     std::vector<Index> origin(mesh.triangles.size());
     std::iota(origin.begin(), origin.end(), Index{0});
-    sink.set(positions, mesh.triangles, origin);
+    std::vector<Index> vertex_origin(positions.size(), no_vertex);
+    for (Index v = 0; v < vertex_origin.size(); ++v)
+      if (positions[v] == mesh.positions[v]) vertex_origin[v] = v;
+    sink.set(positions, mesh.triangles, origin, vertex_origin);
   }
 
  private:
@@ -109,8 +112,8 @@ constexpr OptionSpec options[] = {
      "part of the way to the mean of its neighbours that a vertex goes"},
     {"pass_band", OptionType::real, "", "0.1", "0.001", "1",
      "eigenvalue k_PB of the Laplacian below which nothing is damped; 1/mu = k_PB - 1/lambda"},
-    {"boundary", OptionType::text, "", "smooth", "smooth|keep", "",
-     "vertices of the boundary are smoothed along it, or stay"},
+    {"boundary", OptionType::text, "", "smooth", "", "", "vertices of the boundary are smoothed along it, or stay",
+     "smooth|keep"},
 };
 
 }  // namespace

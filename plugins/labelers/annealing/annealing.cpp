@@ -68,7 +68,7 @@ class Search {
   Schedule schedule() {
     ConditionalCosts costs(tables_);
     if (best_.labelings().empty()) {
-      Random random(mix(context_.seed()));
+      Random random(splitmix64(context_.seed()));
       costs.reset(random_values(tables_, random));
     } else {
       costs.reset(best_.labelings()[0].values);
@@ -78,18 +78,12 @@ class Search {
     return make_schedule(tables_, costs);
   }
 
-  struct Found {
-    std::vector<Labeling> labelings;
-    std::uint64_t moves = 0;
-    bool stopped = false;
-  };
-
-  Found run(std::size_t number, const Schedule& schedule) const {
-    Run run(tables_, schedule, mix(context_.seed() + number), k_best_, request_.within, deadline_);
+  RunResult run(std::size_t number, const Schedule& schedule) const {
     // The first two are short, so that one who stops early finds something that has cooled.
     const std::uint64_t divisor = number == 0 ? 16 : number == 1 ? 4 : 1;
-    run.anneal(std::max<std::uint64_t>(settings_.sweeps / divisor, 1));
-    return {run.best().take(), run.moves(), run.stopped()};
+    const RunSettings settings{std::max<std::uint64_t>(settings_.sweeps / divisor, 1),
+                               splitmix64(context_.seed() + number)};
+    return annealing::run(settings, tables_, schedule, request_, deadline_);
   }
 
   // Runs are independent of each other and go by their numbers: the same at any thread count. They end where the
@@ -99,11 +93,11 @@ class Search {
     std::vector<double> least;
     while (least.size() < settings_.runs && !done() && !deadline_.reached()) {
       const std::size_t done = least.size();
-      std::vector<Found> found(std::min<std::size_t>(wave, settings_.runs - done));
+      std::vector<RunResult> found(std::min<std::size_t>(wave, settings_.runs - done));
       context_.parallel_for(found.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; k < last; ++k) found[k] = run(done + k, schedule);
       });
-      for (const Found& one : found) {
+      for (const RunResult& one : found) {
         for (const Labeling& labeling : one.labelings) best_.offer(labeling);
         least.push_back(one.labelings.empty() ? forbidden : one.labelings[0].cost);
         outcome_.nodes += one.moves;

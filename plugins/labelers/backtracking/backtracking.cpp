@@ -31,7 +31,7 @@ class Run {
         problem_(problem),
         request_(request),
         deadline_(deadline),
-        network_(problem, deadline, part()),
+        network_(problem, deadline, settings.missing == Missing::never),
         rules_(settings.rules) {
     rules_.missing_last = settings.missing == Missing::only_if_needed;
   }
@@ -65,12 +65,6 @@ class Run {
   }
 
  private:
-  CrispPart part() const {
-    CrispPart made;
-    if (settings_.missing == Missing::never) made.present.assign(problem_.variables.size(), true);
-    return made;
-  }
-
   void tell_conflict(bool missing_allowed, LabelingOutcome& outcome) const {
     add_conflict_fact(problem_, {.missing_allowed = missing_allowed}, request_, deadline_, context_, outcome);
   }
@@ -191,16 +185,20 @@ class Backtracking final : public Labeler {
 };
 
 constexpr OptionSpec options[] = {
-    {"find", OptionType::text, "", "all", "first|all|count", "",
-     "the first consistent labelling; all, of which the k best are listed; or their number too"},
-    {"missing", OptionType::text, "", "only-if-needed", "only-if-needed|allowed|never", "",
-     "labellings with the fewest missing features (the dissertation); all; or those where nothing is missing"},
-    {"rank", OptionType::text, "", "violation", "violation|cost", "",
-     "consistent labellings are ranked by the sum of their violations, then by cost (the dissertation); or by cost"},
-    {"relaxation", OptionType::text, "", "maintained", "none|before|maintained", "",
-     "arc consistency: not at all (forward checking alone), before the search, or at every node"},
-    {"order", OptionType::text, "", "weighted", "weighted|smallest-domain|detectability", "",
-     "next variable: smallest domain over weight of failures, smallest domain, or the dissertation's fixed order"},
+    {"find", OptionType::text, "", "all", "", "",
+     "the first consistent labelling; all, of which the k best are listed; or their number too", "first|all|count"},
+    {"missing", OptionType::text, "", "only-if-needed", "", "",
+     "labellings with the fewest missing features (the dissertation); all; or those where nothing is missing",
+     "only-if-needed|allowed|never"},
+    {"rank", OptionType::text, "", "violation", "", "",
+     "consistent labellings are ranked by the sum of their violations, then by cost (the dissertation); or by cost",
+     "violation|cost"},
+    {"relaxation", OptionType::text, "", "maintained", "", "",
+     "arc consistency: not at all (forward checking alone), before the search, or at every node",
+     "none|before|maintained"},
+    {"order", OptionType::text, "", "weighted", "", "",
+     "next variable: smallest domain over weight of failures, smallest domain, or the dissertation's fixed order",
+     "weighted|smallest-domain|detectability"},
     {"backjumping", OptionType::boolean, "", "true", "", "",
      "go back at once to a decision that is to blame for a failure"},
 };

@@ -193,15 +193,17 @@ class ContinuousRelaxation final : public Labeler {
 };
 
 constexpr OptionSpec options[] = {
-    {"update", OptionType::text, "", "projected-gradient", "projected-gradient|rosenfeld-hummel-zucker", "",
-     "how weights change: ascent of the average local consistency (1983), or the product rule (1976)"},
+    {"update", OptionType::text, "", "projected-gradient", "", "",
+     "how weights change: ascent of the average local consistency (1983), or the product rule (1976)",
+     "projected-gradient|rosenfeld-hummel-zucker"},
     {"iterations", OptionType::integer, "", "1000", "0", "1000000000", "at most"},
     {"tolerance", OptionType::real, "", "1e-6", "0", "1",
      "of weights: converged where none changes by more, or would in a step along the gradient"},
-    {"start", OptionType::text, "", "costs", "costs|uniform", "",
-     "weights at first: exp(-cost) of each value by itself, normed, or all alike"},
-    {"evidence", OptionType::text, "", "lasting", "lasting|initial", "",
-     "what a value costs by itself supports it in every iteration, or makes the first weights alone (the papers)"},
+    {"start", OptionType::text, "", "costs", "", "",
+     "weights at first: exp(-cost) of each value by itself, normed, or all alike", "costs|uniform"},
+    {"evidence", OptionType::text, "", "lasting", "", "",
+     "what a value costs by itself supports it in every iteration, or makes the first weights alone (the papers)",
+     "lasting|initial"},
     {"saturation", OptionType::real, "nats", "0", "0", "",
      "constraint cost at which a compatibility reaches -1 or 1; 0: the largest finite one of the problem"},
     {"improve", OptionType::boolean, "", "true", "", "",

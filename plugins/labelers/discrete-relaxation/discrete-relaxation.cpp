@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Discrete relaxation: strikes from each domain what cannot stand with anything left in another (dissertation 3.4.2).
 
-#include "reasons.h"
 #include "toposcope/labeling/conflict_set.h"
 #include "toposcope/labeling/crisp_outcome.h"
 #include "toposcope/labeling/crisp_search.h"
@@ -10,11 +9,15 @@
 namespace {
 
 using namespace toposcope;
-using namespace toposcope::discrete_relaxation;
 
 enum class Missing : std::uint8_t { only_if_needed, allowed, never };
 
 constexpr std::size_t listed_values = 20;  ///< of a domain in a fact
+
+std::string value_name(const LabelingVariable& variable, Index value) {
+  if (!variable.value_names.empty()) return variable.value_names[value];
+  return variable.missing(value) ? "missing" : std::to_string(value);
+}
 
 class Run {
  public:
@@ -23,17 +26,18 @@ class Run {
         search_(search),
         problem_(problem),
         deadline_(deadline),
-        network_(problem, deadline, part(missing != Missing::allowed)) {}
+        network_(problem, deadline, missing != Missing::allowed) {}
 
   LabelingOutcome outcome(const LabelingRequest& request, const Context& context) {
     const double least = sum_of_minima(problem_, deadline_);
-    CrispDomains domains(network_, deadline_);
-    const bool open = network_.complete() && domains.relax();
+    ArcConsistency consistency(network_, deadline_);
+    const CrispDomains& domains = consistency.domains();
+    const bool open = network_.complete() && consistency.relax();
     const bool stopped = deadline_.reached();
     LabelingOutcome outcome = label(domains, !stopped && !open, stopped);
     outcome.lower_bound = none_ && network_.by_cost_alone() ? forbidden : least;
     if (network_.complete()) {
-      outcome.fallen = Reasons(domains).all();
+      outcome.removed = consistency.removed();
       tell_domains(domains, outcome);
     }
     if (inconsistent_)
@@ -43,12 +47,6 @@ class Run {
   }
 
  private:
-  CrispPart part(bool all_present) const {
-    CrispPart made;
-    if (all_present) made.present.assign(problem_.variables.size(), true);
-    return made;
-  }
-
   // What is proven of the relaxed problem is proven under the rules: fewer than all are not allowed.
   bool binding() const { return missing_ != Missing::only_if_needed || !any_optional(problem_); }
 
@@ -142,9 +140,10 @@ class DiscreteRelaxation final : public Labeler {
 };
 
 constexpr OptionSpec options[] = {
-    {"missing", OptionType::text, "", "only-if-needed", "only-if-needed|allowed|never", "",
+    {"missing", OptionType::text, "", "only-if-needed", "", "",
      "the domains are relaxed with nothing missing, and where that has no labelling the fewest may be; or with "
-     "*missing* a value like others; or with nothing missing ever"},
+     "*missing* a value like others; or with nothing missing ever",
+     "only-if-needed|allowed|never"},
     {"search", OptionType::boolean, "", "true", "", "",
      "look for the first consistent labelling, arc consistency maintained; false: relaxation alone"},
 };

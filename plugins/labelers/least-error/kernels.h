@@ -15,6 +15,10 @@ inline constexpr bool is_forbidden(Cost cost) {
   return cost >= infinite / 2;
 }
 
+inline constexpr Cost saturated(Cost a, Cost b) {
+  return is_forbidden(a) || is_forbidden(b) ? infinite : std::min(infinite, a + b);
+}
+
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define TOPOSCOPE_WIDE __attribute__((target_clones("avx2", "default")))

@@ -35,6 +35,8 @@ struct DelayedFunction {
 
 class SoftNetwork {
  public:
+  static constexpr double largest_sum = 1 << 26;  ///< of all units: moved costs stay far below `infinite`
+
   /// \param deadline  asked while the tables are made; complete() is false where it struck
   SoftNetwork(const LabelingProblem& problem, Deadline& deadline);
   bool complete() const { return complete_; }
@@ -120,9 +122,17 @@ class SoftNetwork {
                         costs_.begin() + static_cast<std::ptrdiff_t>(offset) + length);
     stamp = now_;
   }
+  struct Terms;
+  bool read_variables(Terms& terms);
+  bool read_constraints(Terms& terms, Deadline& deadline);
+  bool make_functions(Terms& terms, Deadline& deadline);
+  void add_binary(int x, int y, std::span<const double> costs);
+  void add_delayed(const std::vector<int>& variables, std::span<const double> costs);
+  void complete_functions();
   int function_between(int x, int y);
-  int release(int delayed);
   void project_delayed();
+  Cost units(double cost) const;
+  int release(int delayed);
   bool excludes(int variable, int value, int other, int other_value) const {
     const Index a = candidates_[first_[variable] + value], b = candidates_[first_[other] + other_value];
     return a != no_candidate && b != no_candidate && problem_.conflict(a, b);

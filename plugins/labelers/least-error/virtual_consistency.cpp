@@ -55,7 +55,7 @@ void VirtualConsistency::enforce(Cost cutoff, Deadline& deadline) {
 // Arc consistency of the problem in which what costs less than the threshold is allowed. \return a variable without
 // values, or -1
 int VirtualConsistency::wiped_out(Cost threshold) {
-  fallen_.clear();
+  removed_.clear();
   queue_.clear();
   for (int v = 0; v < network_.variables(); ++v) {
     const auto v_index = static_cast<std::size_t>(v);
@@ -86,7 +86,7 @@ int VirtualConsistency::wiped_out(Cost threshold) {
         } else {
           alive[a] = 0;
           lost = true;
-          fallen_.push_back({other, a, use.function, side});
+          removed_.push_back({other, a, use.function, side});
         }
       }
       if (!some) return other;
@@ -110,18 +110,18 @@ void VirtualConsistency::trace(int variable, Cost threshold) {
     need_[at] = 1;
     wanted_[at] = network_.unary(variable)[a] < threshold;
   }
-  for (std::size_t k = fallen_.size(); k-- > 0;) {
-    const Fallen& fallen = fallen_[k];
-    const std::size_t at = first_[static_cast<std::size_t>(fallen.variable)] + static_cast<std::size_t>(fallen.value);
+  for (std::size_t k = removed_.size(); k-- > 0;) {
+    const Removed& removed = removed_[k];
+    const std::size_t at = first_[static_cast<std::size_t>(removed.variable)] + static_cast<std::size_t>(removed.value);
     if (!wanted_[at]) continue;
-    const BinaryFunction& f = network_.function(fallen.function);
-    const int other_side = 1 - fallen.side, other = f.variable[other_side];
+    const BinaryFunction& f = network_.function(removed.function);
+    const int other_side = 1 - removed.side, other = f.variable[other_side];
     const std::size_t other_block =
-        block_[2 * static_cast<std::size_t>(fallen.function) + static_cast<std::size_t>(other_side)];
-    moves_[block_[2 * static_cast<std::size_t>(fallen.function) + static_cast<std::size_t>(fallen.side)] +
-           static_cast<std::size_t>(fallen.value)] += need_[at];
+        block_[2 * static_cast<std::size_t>(removed.function) + static_cast<std::size_t>(other_side)];
+    moves_[block_[2 * static_cast<std::size_t>(removed.function) + static_cast<std::size_t>(removed.side)] +
+           static_cast<std::size_t>(removed.value)] += need_[at];
     for (const int b : network_.values(other)) {
-      const Cost tuple = fallen.side == 0 ? cost(f, fallen.value, b) : cost(f, b, fallen.value);
+      const Cost tuple = removed.side == 0 ? cost(f, removed.value, b) : cost(f, b, removed.value);
       if (tuple >= threshold) continue;
       std::int64_t& extended = extended_[other_block + static_cast<std::size_t>(b)];
       if (need_[at] <= extended) continue;

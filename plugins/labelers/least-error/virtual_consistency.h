@@ -21,7 +21,7 @@ class VirtualConsistency {
   void enforce(Cost cutoff, Deadline& deadline);
 
  private:
-  struct Fallen {
+  struct Removed {
     int variable, value;
     int function, side;  ///< that left it without support; side of `variable`
   };
@@ -40,7 +40,7 @@ class VirtualConsistency {
   std::vector<std::int64_t>
       moves_;  ///< per function, side and value: projected (+) or extended (-) for each unit gained
   std::vector<std::int64_t> extended_;
-  std::vector<Fallen> fallen_;
+  std::vector<Removed> removed_;
   std::vector<int> queue_;
   std::vector<char> queued_;
 };

@@ -3,6 +3,7 @@
 // propagation.
 
 #include "run.h"
+#include "toposcope/labeling/tools.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -25,10 +26,11 @@ class Posterior final : public Labeler {
       outcome.lower_bound = problem.constant;
       outcome.optimal = true;
       outcome.log_evidence = -problem.constant;
+      outcome.evidence_exactness = Exactness::exact;
       outcome.guarantee = "exact: a problem without variables has one labelling";
       return outcome;
     }
-    LabelingOutcome outcome = Run(settings_, problem, request, context).outcome();
+    LabelingOutcome outcome = posterior::run(settings_, problem, request, context);
     context.progress(1);
     return outcome;
   }
@@ -38,8 +40,9 @@ class Posterior final : public Labeler {
 };
 
 constexpr OptionSpec options[] = {
-    {"method", OptionType::text, "", "auto", "auto|elimination|search|belief-propagation", "",
-     "how the sums are made; auto: whichever exact method is done first, belief propagation where neither is"},
+    {"method", OptionType::text, "", "auto", "", "",
+     "how the sums are made; auto: whichever exact method is done first, belief propagation where neither is",
+     "auto|elimination|search|belief-propagation"},
     {"max_entries", OptionType::real, "", "33554432", "1", "1e10",
      "elimination is feasible where its tables have at most so many entries together (8 bytes each)"},
     {"tolerance", OptionType::real, "", "1e-12", "1e-15", "0.1",

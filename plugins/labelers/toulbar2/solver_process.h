@@ -3,26 +3,10 @@
 
 // A folder of one's own and a program that runs in it until it ends or is stopped.
 
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
-#include <chrono>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
-#include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
-
-extern "C" char** environ;  // NOLINT(readability-redundant-declaration)
 
 namespace toposcope::toulbar2 {
 
@@ -31,17 +15,8 @@ namespace fs = std::filesystem;
 /// Removed with all that is in it.
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "toposcope-toulbar2-XXXXXX").string();
-    if (!mkdtemp(pattern.data()))
-      throw std::runtime_error("the folder " + pattern + " cannot be made (" + std::strerror(errno) +
-                               "); set TMPDIR to a folder that may be written");
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
+  TemporaryFolder();
+  ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   const fs::path& path() const { return path_; }
@@ -50,45 +25,13 @@ class TemporaryFolder {
   fs::path path_;
 };
 
-inline void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw std::runtime_error("cannot write " + path.string() + "; is the disk full?");
-}
+void write_text(const fs::path& path, const std::string& text);
 
-inline std::string read_text(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return std::move(text).str();
-}
+std::string read_text(const fs::path& path);
 
 /// Runs a program with its output in a file, and kills it once `stop` says so.
 /// \return true when it ended by itself
-inline bool run(const fs::path& program, std::vector<std::string> arguments, const fs::path& output,
-                const std::function<bool()>& stop) {
-  std::string name = program.string();
-  std::vector<char*> argv = {name.data()};
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::runtime_error(program.string() + " cannot be started (" + std::strerror(error) + ")");
-  for (auto pause = std::chrono::microseconds(200);; pause = std::min(pause * 2, std::chrono::microseconds(2000))) {
-    if (waitpid(child, nullptr, WNOHANG) != 0) return true;
-    if (stop()) break;
-    std::this_thread::sleep_for(pause);
-  }
-  kill(child, SIGKILL);
-  waitpid(child, nullptr, 0);
-  return false;
-}
+bool run(const fs::path& program, std::vector<std::string> arguments, const fs::path& output,
+         const std::function<bool()>& stop);
 
 }  // namespace toposcope::toulbar2

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/residuals.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -20,10 +20,8 @@ class Angle final : public RelationTester {
     const FittedShape& first = *input.features[0].shape;
     const FittedShape& second = *input.features[1].shape;
     const double low = arguments.real("min") * pi / 180, high = arguments.real("max") * pi / 180;
-    if (low > high)
-      throw std::invalid_argument("angle: min is greater than max, no angle lies between; exchange them in the model");
     RelationResult result;
-    if (first.orientation == Orientation::none || second.orientation == Orientation::none) {
+    if (!directed(first, second)) {
       result.applicable = false;
       result.why = "a shape without a direction or normal makes no angle";
       return result;
@@ -31,13 +29,11 @@ class Angle final : public RelationTester {
     const double directions = line_angle(first.direction, second.direction);
     // A line that is parallel to a plane's normal is at a right angle to the plane.
     const double angle = first.orientation == second.orientation ? directions : pi / 2 - directions;
-    result.residual = std::max({0.0, low - angle, angle - high});
+    measure_range(result, angle, low, high);
     result.tolerance = tolerance_;
-    result.sd = std::min(std::hypot(first.direction_sd, second.direction_sd), pi / 2);
-    result.dof = 1;
-    result.slack = high - low;
-    // Of random directions, see the page of `parallel`; never 0.
-    result.clutter_density = std::max(std::sin(directions), 0.05);
+    result.sd = angle_sd(first, second);
+    // Of random directions, see the page of `parallel`.
+    result.clutter_density = std::max(std::sin(directions), least_angle_density);
     return result;
   }
 
@@ -49,7 +45,7 @@ constexpr OptionSpec options[] = {
     {"tolerance", OptionType::real, "deg", "5", "0.01", "90", "how far beyond the model's range the angle may lie"},
 };
 constexpr OptionSpec arguments[] = {
-    {"min", OptionType::real, "deg", "0", "0", "90", "least angle"},
+    {"min", OptionType::real, "deg", "0", "0", "90", "least angle", "", "max"},
     {"max", OptionType::real, "deg", "90", "0", "90", "greatest angle"},
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "toposcope/geometry/residuals.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -22,7 +23,7 @@ class AxesMeet final : public RelationTester {
     const FittedShape& first = *input.features[0].shape;
     const FittedShape& second = *input.features[1].shape;
     RelationResult result;
-    if (first.orientation == Orientation::none || second.orientation == Orientation::none) {
+    if (!directed(first, second)) {
       result.applicable = false;
       result.why = "a shape without a direction or normal has no axis";
       return result;

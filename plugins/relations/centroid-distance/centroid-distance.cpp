@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Centroid_Distance(min, max) of the dissertation, 4.6.
 
-#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "toposcope/geometry/residuals.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -20,17 +19,12 @@ class CentroidDistance final : public RelationTester {
     const FittedShape& second = *input.features[1].shape;
     const double low = arguments.real("min");
     const double high = arguments.real("max");
-    if (low > high)
-      throw std::invalid_argument("centroid-distance: min = " + std::to_string(low) + " is greater than max = " +
-                                  std::to_string(high) + ", no distance lies between; exchange them in the model");
     const double distance = (second.centroid - first.centroid).norm();
     const double diagonal = input.object_box.diagonal();
     RelationResult result;
-    result.residual = std::max({0.0, low - distance, distance - high});
+    measure_range(result, distance, low, high);
     result.tolerance = tolerance_rel_ * diagonal;
     result.sd = std::hypot(first.centroid_sd, second.centroid_sd);
-    result.dof = 1;
-    result.slack = high - low;
     result.clutter_density = 1 / diagonal;
     return result;
   }
@@ -44,7 +38,7 @@ constexpr OptionSpec options[] = {
      "how far beyond the model's range the distance may lie"},
 };
 constexpr OptionSpec arguments[] = {
-    {"min", OptionType::real, "length", "0", "0", "", "least distance of the centroids"},
+    {"min", OptionType::real, "length", "0", "0", "", "least distance of the centroids", "", "max"},
     {"max", OptionType::real, "length", "", "0", "", "greatest distance of the centroids"},
 };
 

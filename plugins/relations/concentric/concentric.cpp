@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/residuals.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -48,7 +49,7 @@ class Concentric final : public RelationTester {
     result.tolerance = tolerance_rel_ * radius;
     // Per component: the centres move the offset directly, the mean normal over the lever between the centres, and the
     // angle of the normals tilts the smaller circle.
-    const double direction_sd = std::min(std::hypot(first.direction_sd, second.direction_sd), pi / 2);
+    const double direction_sd = angle_sd(first, second);
     result.sd = std::sqrt(first.centroid_sd * first.centroid_sd + second.centroid_sd * second.centroid_sd +
                           (along * along / 4 + radius * radius / 2) * direction_sd * direction_sd);
     result.dof = 2;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/residuals.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -53,7 +54,7 @@ class Coplanar final : public RelationTester {
     const double lateral = std::sqrt(std::max(0.0, between.squaredNorm() - offset * offset)) / 2;
     result.residual = std::sqrt(offset * offset + reach * reach * slope * slope / 2);
     result.tolerance = tolerance_rel_ * reach;
-    const double direction_sd = std::min(std::hypot(first.direction_sd, second.direction_sd), pi / 2);
+    const double direction_sd = angle_sd(first, second);
     result.sd = std::sqrt(first.centroid_sd * first.centroid_sd + second.centroid_sd * second.centroid_sd +
                           (lateral * lateral + reach * reach / 2) * direction_sd * direction_sd);
     result.dof = planes ? 3 : 2;

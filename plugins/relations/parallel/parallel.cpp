@@ -2,10 +2,7 @@
 // The parallel relation: dissertation 4.6 with its dot products put right (|n1.n2| near 1), and like compared with
 // like.
 
-#include <algorithm>
-#include <cmath>
-
-#include "toposcope/geometry/lines.h"
+#include "toposcope/geometry/residuals.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -20,27 +17,15 @@ class Parallel final : public RelationTester {
     const FittedShape& first = *input.features[0].shape;
     const FittedShape& second = *input.features[1].shape;
     RelationResult result;
-    if (first.orientation == Orientation::none || second.orientation == Orientation::none) {
+    if (!directed(first, second)) {
       result.applicable = false;
       result.why = "a shape without a direction or normal is parallel to nothing";
       return result;
     }
-    const double angle = line_angle(first.direction, second.direction);
+    // A line is parallel to a plane when it is perpendicular to the plane's normal.
     const bool like = first.orientation == second.orientation;
+    result = like ? parallel_directions(first, second) : perpendicular_directions(first, second);
     result.tolerance = tolerance_;
-    // A direction that is wholly uncertain is off by a right angle at most.
-    result.sd = std::min(std::hypot(first.direction_sd, second.direction_sd), pi / 2);
-    if (like) {
-      result.residual = angle;
-      result.dof = 2;
-      result.clutter_density = angle > 0 ? std::sin(angle) / angle : 1;
-    } else {
-      // A line is parallel to a plane when it is perpendicular to the plane's normal.
-      result.residual = pi / 2 - angle;
-      result.dof = 1;
-      // Never 0: at a right angle the relation fails whatever is unrelated.
-      result.clutter_density = std::max(std::cos(result.residual), 0.05);
-    }
     return result;
   }
 

@@ -10,6 +10,7 @@
 #include "circle_fit.h"
 #include "toposcope/geometry/lines.h"
 #include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/geometry/turn_coverage.h"
 #include "toposcope/plugin.h"
 
@@ -18,10 +19,6 @@ namespace {
 
 constexpr double radius_limit_diagonals = 100;
 constexpr std::size_t outline_limit = 512;
-
-Vec3 vector_of(const FittedShape& shape, std::size_t parameter) {
-  return Vec3(shape.parameters[parameter].values.data());
-}
 
 /// Inverse of a normal matrix whose variances end at `limit`: a direction that the points leave open is uncertain, not
 /// exact as a pseudo-inverse would have it.
@@ -131,8 +128,9 @@ class CircleFitter final : public ShapeFitter {
   }
 
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    return std::sqrt(
-        offset({vector_of(shape, 0), vector_of(shape, 1), shape.parameters[2].values[0]}, point).squared());
+    const Circle circle{vector_parameter(shape, "center"), vector_parameter(shape, "normal"),
+                        number_parameter(shape, "radius")};
+    return std::sqrt(offset(circle, point).squared());
   }
 
   /// The least radius stays open: the points that a robust fit leaves out may lie anywhere in the box.
@@ -149,8 +147,9 @@ class CircleFitter final : public ShapeFitter {
 };
 
 constexpr OptionSpec options[] = {
-    {"method", OptionType::text, "", "robust", "robust|powell", "",
-     "robust: outliers do not count; powell: least squares in the points' plane, as in the dissertation"},
+    {"method", OptionType::text, "", "robust", "", "",
+     "robust: outliers do not count; powell: least squares in the points' plane, as in the dissertation",
+     "robust|powell"},
     {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", "points within two scales of the circle belong to it"},
 };
 constexpr ProvidedName measures[] = {{"radius", 1, "radius of the circle"},
@@ -166,5 +165,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, toposcope::circle::CircleFitter,
                   .citation = "Neal 1999, section 4.4.1",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 1,
                   .options = toposcope::circle::options,
                   .provides = toposcope::circle::measures})

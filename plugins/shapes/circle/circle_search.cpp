@@ -8,6 +8,7 @@
 
 #include "circle_fit.h"
 #include "toposcope/geometry/point_sets.h"
+#include "toposcope/system/random.h"
 
 namespace toposcope::circle {
 namespace {
@@ -87,13 +88,9 @@ class Search {
     const auto add = [&](const Circle& circle) { starts.push_back({quantile_of(circle), circle}); };
     add(algebraic_fit(points_));
     const std::size_t n = points_.size();
-    std::uint64_t state = 0x9e3779b97f4a7c15ULL;
-    const auto draw = [&] {  // linear congruential: the same triples on every machine
-      state = state * 6364136223846793005ULL + 1442695040888963407ULL;
-      return static_cast<std::size_t>(state >> 33) % n;
-    };
+    LinearCongruential random;
     for (int k = 0; k < search_triples; ++k) {
-      const std::size_t a = draw(), b = draw(), c = draw();
+      const std::size_t a = random.below(n), b = random.below(n), c = random.below(n);
       if (a != b && b != c && c != a) add(through(points_[a], points_[b], points_[c]));
     }
     const auto less = [](const Start& x, const Start& y) { return x.quantile < y.quantile; };

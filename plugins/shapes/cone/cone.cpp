@@ -6,9 +6,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
-#include "toposcope/geometry/point_sets.h"
 #include "toposcope/geometry/revolution.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -130,38 +131,25 @@ class Cone final : public RevolutionKind {
   }
 };
 
-class ConeFitter final : public ShapeFitter {
+class ConeFitter final : public RevolutionFitter {
  public:
-  explicit ConeFitter(const Options& options) : scale_(options.real("scale")) {}
-
-  FittedShape fit(const FitInput& input, const Options&, Context&) const override {
-    return fit_revolution(Cone(), input, scale_ * input.mean_edge);
-  }
+  explicit ConeFitter(const Options& options) : RevolutionFitter(std::make_unique<Cone>(), options) {}
 
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    const Revolution cone{Vec3(shape.parameters[0].values.data()), Vec3(shape.parameters[1].values.data()), {}};
-    const double angle = shape.parameters[2].values[0] / degrees;
+    const Revolution cone{vector_parameter(shape, "apex"), vector_parameter(shape, "axis"), {}};
+    const double angle = number_parameter(shape, "half_angle") / degrees;
     const auto [radius, height] = position(cone, point);
     const bool before_apex = radius * std::sin(angle) + height * std::cos(angle) < 0;
     return before_apex ? std::hypot(radius, height) : std::abs(radius * std::cos(angle) - height * std::sin(angle));
   }
 
-  Interval bounds(std::string_view measure, std::span<const Box> sets, const Options&) const override {
-    if (measure == "coverage") return {0, 1};
+  Interval bounds(std::string_view measure, std::span<const Box> sets, const Options& arguments) const override {
     if (measure == "half_angle") return {1, 89};
-    const double diameter = enclosing_diameter(sets) * (1 + 1e-9);  // no two points are farther apart
-    if (measure == "length") return {0, diameter};
-    if (measure == "radius") return {0, flat_diagonals * diameter};
-    return {0, std::numeric_limits<double>::infinity()};
+    return RevolutionFitter::bounds(measure, sets, arguments);
   }
-
- private:
-  double scale_;
 };
 
-constexpr OptionSpec options[] = {
-    {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", "points within two scales of the cone belong to it"},
-};
+constexpr OptionSpec options[] = {scale_option("points within two scales of the cone belong to it")};
 constexpr ProvidedName measures[] = {{"half_angle", 0, "angle between axis and surface, in degrees"},
                                      {"radius", 1, "greatest radius where the cone has points"},
                                      {"length", 1, "extent of the cone's points along the axis"},
@@ -176,5 +164,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, ConeFitter,
                   .summary = "circular cone: apex, axis into the cone, half of the opening angle",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 2,
                   .options = options,
                   .provides = measures})

@@ -6,9 +6,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
-#include "toposcope/geometry/point_sets.h"
 #include "toposcope/geometry/revolution.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -87,35 +88,17 @@ class Cylinder final : public RevolutionKind {
   }
 };
 
-class CylinderFitter final : public ShapeFitter {
+class CylinderFitter final : public RevolutionFitter {
  public:
-  explicit CylinderFitter(const Options& options) : scale_(options.real("scale")) {}
-
-  FittedShape fit(const FitInput& input, const Options&, Context&) const override {
-    return fit_revolution(Cylinder(), input, scale_ * input.mean_edge);
-  }
+  explicit CylinderFitter(const Options& options) : RevolutionFitter(std::make_unique<Cylinder>(), options) {}
 
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    const Revolution surface{Vec3(shape.parameters[0].values.data()), Vec3(shape.parameters[1].values.data()), {}};
-    return std::abs(position(surface, point).radius - shape.parameters[2].values[0]);
+    const Revolution surface{vector_parameter(shape, "point"), vector_parameter(shape, "axis"), {}};
+    return std::abs(position(surface, point).radius - number_parameter(shape, "radius"));
   }
-
-  Interval bounds(std::string_view measure, std::span<const Box> sets, const Options&) const override {
-    if (measure == "coverage") return {0, 1};
-    const double diameter = enclosing_diameter(sets) * (1 + 1e-9);  // no two points are farther apart
-    if (measure == "length") return {0, diameter};
-    if (measure == "radius") return {0, flat_diagonals * diameter};
-    return {0, std::numeric_limits<double>::infinity()};
-  }
-
- private:
-  double scale_;
 };
 
-constexpr OptionSpec options[] = {
-    {"scale", OptionType::real, "mean-edges", "1", "0.05", "20",
-     "points within two scales of the cylinder belong to it"},
-};
+constexpr OptionSpec options[] = {scale_option("points within two scales of the cylinder belong to it")};
 constexpr ProvidedName measures[] = {{"radius", 1, "radius of the cylinder"},
                                      {"length", 1, "extent of the cylinder's points along the axis"},
                                      {"area", 2, "area that has points"},
@@ -129,5 +112,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, CylinderFitter,
                   .summary = "circular cylinder: a point on the axis, the axis, radius",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 2,
                   .options = options,
                   .provides = measures})

@@ -7,6 +7,7 @@
 #include "polyline.h"
 #include "toposcope/geometry/lines.h"
 #include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/plugin.h"
 
 namespace toposcope::line_group {
@@ -86,7 +87,7 @@ class LineGroupFitter final : public ShapeFitter {
   }
 
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    const std::vector<double>& values = shape.parameters[0].values;
+    const std::vector<double>& values = parameter_values(shape, "endpoints");
     const std::size_t vertices = values.size() / 3, segments = vertices - (shape.outline_closed ? 0 : 1);
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < segments; ++k) {
@@ -117,18 +118,20 @@ class LineGroupFitter final : public ShapeFitter {
 };
 
 constexpr OptionSpec options[] = {
-    {"method", OptionType::text, "", "robust", "robust|powell", "",
-     "robust: many starts, outliers do not count; powell: least squares from the box, as in the dissertation"},
+    {"method", OptionType::text, "", "robust", "", "",
+     "robust: many starts, outliers do not count; powell: least squares from the box, as in the dissertation",
+     "robust|powell"},
     {"scale", OptionType::real, "mean-edges", "1", "0.05", "20",
      "points within two scales of the line group belong to it"},
 };
 constexpr OptionSpec arguments[] = {
     {"segments", OptionType::integer, "", "1", "1", "16", "number of line segments"},
     {"closed", OptionType::boolean, "", "false", "", "", "the last endpoint is joined to the first"},
-    {"ends", OptionType::text, "", "extent", "extent|centroids|concave|convex", "",
+    {"ends", OptionType::text, "", "extent", "", "",
      "one segment ends where the points end; or at the centroids of the first and the last working set's surface, or "
      "of how "
-     "much that bends inwards or outwards"},
+     "much that bends inwards or outwards",
+     "extent|centroids|concave|convex"},
 };
 constexpr ProvidedName measures[] = {
     {"length_#", 1, "length of segment #, from 1"},
@@ -146,6 +149,7 @@ TOPOSCOPE_PLUGIN(ShapeFitter, toposcope::line_group::LineGroupFitter,
                   .citation = "Neal 1999, section 4.4.2",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 1,
                   .options = toposcope::line_group::options,
                   .arguments = toposcope::line_group::arguments,
                   .provides = toposcope::line_group::measures})

@@ -22,7 +22,8 @@ struct Patch {
     std::vector<double> weights(input.areas.begin() + first, input.areas.begin() + first + count);
     area = std::accumulate(weights.begin(), weights.end(), 0.0);
     const double way = weight == Weight::concave ? -1 : weight == Weight::convex ? 1 : 0;
-    const auto bends = [&](Index i) { return input.bends.empty() ? 0 : way * input.bends[first + i]; };
+    const std::span<const double> curvature = input.integrated_mean_curvature;
+    const auto bends = [&](Index i) { return curvature.empty() ? 0 : way * curvature[first + i]; };
     bool bent = false;  // a set that does not bend that way has its area's centroid
     for (Index i = 0; i < count; ++i) bent = bent || bends(i) > 0;
     for (Index i = 0; bent && i < count; ++i) weights[i] = std::max(0.0, bends(i));

@@ -9,6 +9,7 @@
 
 #include "toposcope/geometry/lines.h"
 #include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/plugin.h"
 
 namespace toposcope::plane {
@@ -185,7 +186,7 @@ class PlaneFitter final : public ShapeFitter {
   }
 
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    return std::abs(height({Vec3(shape.parameters[0].values.data()), Vec3(shape.parameters[1].values.data())}, point));
+    return std::abs(height({vector_parameter(shape, "point"), vector_parameter(shape, "normal")}, point));
   }
 
   Interval bounds(std::string_view measure, std::span<const Box> sets, const Options&) const override {
@@ -201,8 +202,8 @@ class PlaneFitter final : public ShapeFitter {
 };
 
 constexpr OptionSpec options[] = {
-    {"method", OptionType::text, "", "robust", "robust|powell", "",
-     "robust: outliers lose their weight; powell: plain least squares, as in the dissertation"},
+    {"method", OptionType::text, "", "robust", "", "",
+     "robust: outliers lose their weight; powell: plain least squares, as in the dissertation", "robust|powell"},
     {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", "points within two scales of the plane belong to it"},
 };
 constexpr ProvidedName measures[] = {{"extent", 1, "longest side of the box of the plane's points"},
@@ -218,5 +219,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, toposcope::plane::PlaneFitter,
                   .citation = "Neal 1999, section 4.4.3",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 2,
                   .options = toposcope::plane::options,
                   .provides = toposcope::plane::measures})

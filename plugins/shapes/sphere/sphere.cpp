@@ -5,9 +5,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
-#include "toposcope/geometry/point_sets.h"
 #include "toposcope/geometry/revolution.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -102,31 +103,16 @@ class Sphere final : public RevolutionKind {
   }
 };
 
-class SphereFitter final : public ShapeFitter {
+class SphereFitter final : public RevolutionFitter {
  public:
-  explicit SphereFitter(const Options& options) : scale_(options.real("scale")) {}
-
-  FittedShape fit(const FitInput& input, const Options&, Context&) const override {
-    return fit_revolution(Sphere(), input, scale_ * input.mean_edge);
-  }
+  explicit SphereFitter(const Options& options) : RevolutionFitter(std::make_unique<Sphere>(), options) {}
 
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    return std::abs((point - Vec3(shape.parameters[0].values.data())).norm() - shape.parameters[1].values[0]);
+    return std::abs((point - vector_parameter(shape, "center")).norm() - number_parameter(shape, "radius"));
   }
-
-  Interval bounds(std::string_view measure, std::span<const Box> sets, const Options&) const override {
-    if (measure == "coverage") return {0, 1};
-    if (measure == "radius") return {0, flat_diagonals * enclosing_diameter(sets) * (1 + 1e-9)};
-    return {0, std::numeric_limits<double>::infinity()};
-  }
-
- private:
-  double scale_;
 };
 
-constexpr OptionSpec options[] = {
-    {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", "points within two scales of the sphere belong to it"},
-};
+constexpr OptionSpec options[] = {scale_option("points within two scales of the sphere belong to it")};
 constexpr ProvidedName measures[] = {{"radius", 1, "radius of the sphere"},
                                      {"area", 2, "area that has points"},
                                      {"coverage", 0, "part of the sphere's area that has points"}};
@@ -139,5 +125,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, SphereFitter,
                   .summary = "sphere: centre, radius",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 2,
                   .options = options,
                   .provides = measures})

@@ -6,9 +6,10 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
-#include "toposcope/geometry/point_sets.h"
 #include "toposcope/geometry/revolution.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -105,33 +106,19 @@ class Torus final : public RevolutionKind {
   }
 };
 
-class TorusFitter final : public ShapeFitter {
+class TorusFitter final : public RevolutionFitter {
  public:
-  explicit TorusFitter(const Options& options) : scale_(options.real("scale")) {}
-
-  FittedShape fit(const FitInput& input, const Options&, Context&) const override {
-    return fit_revolution(Torus(), input, scale_ * input.mean_edge);
-  }
+  explicit TorusFitter(const Options& options) : RevolutionFitter(std::make_unique<Torus>(), options) {}
 
   double distance(const FittedShape& shape, const Vec3& point) const override {
-    const Revolution torus{Vec3(shape.parameters[0].values.data()), Vec3(shape.parameters[1].values.data()), {}};
+    const Revolution torus{vector_parameter(shape, "center"), vector_parameter(shape, "axis"), {}};
     const auto [radius, height] = position(torus, point);
-    return std::abs(std::hypot(radius - shape.parameters[2].values[0], height) - shape.parameters[3].values[0]);
+    return std::abs(std::hypot(radius - number_parameter(shape, "major_radius"), height) -
+                    number_parameter(shape, "minor_radius"));
   }
-
-  Interval bounds(std::string_view measure, std::span<const Box> sets, const Options&) const override {
-    if (measure == "coverage") return {0, 1};
-    if (measure == "area") return {0, std::numeric_limits<double>::infinity()};
-    return {0, flat_diagonals * enclosing_diameter(sets) * (1 + 1e-9)};
-  }
-
- private:
-  double scale_;
 };
 
-constexpr OptionSpec options[] = {
-    {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", "points within two scales of the torus belong to it"},
-};
+constexpr OptionSpec options[] = {scale_option("points within two scales of the torus belong to it")};
 constexpr ProvidedName measures[] = {{"major_radius", 1, "radius of the ring, the tube's middle line"},
                                      {"minor_radius", 1, "radius of the tube"},
                                      {"area", 2, "area that has points"},
@@ -145,5 +132,6 @@ TOPOSCOPE_PLUGIN(ShapeFitter, TorusFitter,
                   .summary = "torus: centre, axis, radius of the ring, radius of the tube",
                   .min_arity = 1,
                   .max_arity = 0,
+                  .dimension = 2,
                   .options = options,
                   .provides = measures})

@@ -132,6 +132,6 @@ TOPOSCOPE_PLUGIN(WorkingSetClassifier, CurvatureWorkingSets,
                  {.id = "curvature",
                   .version = "1.0.0",
                   .summary = "Regions of high convex, high concave and low curvature, by two thresholds",
-                  .citation = "Neal 1999, 4.2 and 4.3; Itter and Jain 1986",
+                  .citation = "Neal 1999, 4.2 and 4.3; Itter and Jain 1985",
                   .options = options,
                   .provides = types})

@@ -64,7 +64,9 @@ TEST_F(Index, OfAnEvaluation) {
     EXPECT_EQ(from_base64(thumbnail.substr(start.size())).substr(1, 3), "PNG");
     const std::string report = mesh["report"];
     EXPECT_TRUE(fs::exists(folder_ / "out" / report)) << report;
-    EXPECT_TRUE(fs::exists((folder_ / "out" / report).parent_path() / "scene.json"));
+    const fs::path beside = (folder_ / "out" / report).parent_path();
+    EXPECT_EQ(schema_faults("result", read_text(beside / "result.json")), "") << report;
+    EXPECT_EQ(schema_faults("scene", read_text(beside / "scene.json")), "") << report;
     EXPECT_FALSE(mesh["verdicts"].empty());
   }
   for (const json& each : index["tables"]) {

@@ -165,7 +165,7 @@ TEST_F(ProblemsOfMeshes, LabelersAreComparedOnTheSameProblem) {
 
   const std::string csv = toposcope(arguments + " --csv").out;
   EXPECT_THAT(csv,
-              StartsWith("mesh,labeler,class,labelling,cost,gap,proven,posterior,time_ms,nodes,right,of,guarantee\n"));
+              StartsWith("mesh,labeler,class,labeling,cost,gap,proven,posterior,time_ms,nodes,right,of,guarantee\n"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 3 + 3);
   EXPECT_THAT(toposcope(arguments + " --markdown").out, HasSubstr("| `backtracking` |"));
 }

@@ -64,6 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"unknown-measure", "contract: on a ring, gives a measure 'girth'"},
         Case{"unconnected-sets", "contract: on an uneven torus, gave a working set that is not connected"},
         Case{"loses-origins", "contract: on an uneven torus, gave a mesh whose faces do not say"},
+        Case{"keeps-what-it-moved", "contract: on an uneven torus, says that vertex 0 is vertex 0 of its input"},
+        Case{"claims-exactness", "contract: on random problem 1, says that its evidence is exact"},
         Case{"wrong-costs", "contract: on random problem 1, gave a labelling the cost"},
         Case{"no-tolerance", "contract: on two rings and a segment, gives the tolerance 0"},
         Case{"option-without-sense", "options: on a ring with part = 0, explains inf"},
@@ -93,7 +95,7 @@ TEST(Conformance, WhatCannotBeLoadedFailsInItsManifest) {
               ::testing::ElementsAre(AllOf(StartsWith("manifest: its manifest"), HasSubstr("is not beside it"))));
   const struct {
     const char *name, *words;
-  } cases[] = {{"wrong-major", "built for plugin ABI 3."},
+  } cases[] = {{"wrong-major", "built for plugin ABI 4."},
                {"newer-minor", "newer plugin ABI"},
                {"wrong-fingerprint", "compiled differently"},
                {"missing-symbol", "does not export the symbol"},

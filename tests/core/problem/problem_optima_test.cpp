@@ -11,7 +11,7 @@
 #include <fstream>
 
 #include "core/problem/global_function_cases.h"
-#include "problem_formats.h"
+#include "formats/problem_formats.h"
 #include "support/labeling_problems.h"
 #include "support/plugins.h"
 #include "toposcope/labeling/tools.h"

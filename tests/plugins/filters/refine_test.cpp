@@ -19,11 +19,13 @@ using namespace toposcope;
 using namespace toposcope::test;
 
 struct Caught final : MeshSink {
-  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index> o) override {
+  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index> o,
+           std::span<const Index> vertex_origin) override {
     called = true;
     mesh.positions.assign(p.begin(), p.end());
     mesh.triangles.assign(t.begin(), t.end());
     mesh.face_origin.assign(o.begin(), o.end());
+    mesh.input_vertices.assign(vertex_origin.begin(), vertex_origin.end());
   }
   bool called = false;
   TriangleSoup mesh;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/run_context.h"
+#include "support/labeler_checks.h"
 #include "support/labeling_problems.h"
 #include "support/planted_problems.h"
 #include "support/plugins.h"
@@ -22,30 +23,9 @@ TEST(Annealing, SoundOnRandomProblemsAndNearlyAlwaysBest) {
     const LabelingProblem problem = test::random_problem(test::random_kind(seed), seed);
     const std::vector<Labeling> all = test::all_labelings(problem);
     const LabelingOutcome outcome = labeler->solve(problem, {.k_best = 3}, test::context());
-    for (const Labeling& labeling : outcome.labelings) {
-      EXPECT_TRUE(meets_exclusions(problem, labeling.values)) << seed;
-      EXPECT_EQ(labeling.cost, cost_of(problem, labeling.values)) << seed;
-    }
-    const bool may_fail = std::any_of(problem.variables.begin(), problem.variables.end(),
-                                      [](const LabelingVariable& variable) { return !variable.optional; });
-    if (!may_fail) {
-      EXPECT_FALSE(outcome.labelings.empty()) << seed;
-    }
-    if (all.empty()) continue;
-    ++solvable;
-    EXPECT_LE(outcome.lower_bound, all[0].cost) << seed;
-    if (outcome.labelings.empty()) continue;
-    EXPECT_LT(outcome.labelings[0].cost, forbidden) << seed;
-    EXPECT_GE(outcome.labelings[0].cost, all[0].cost) << seed;
-    if (outcome.optimal) {
-      EXPECT_EQ(outcome.labelings[0].cost, all[0].cost) << seed;
-    }
-    // The list is in order, each labelling once.
-    for (std::size_t k = 1; k < outcome.labelings.size(); ++k) {
-      EXPECT_LE(outcome.labelings[k - 1].cost, outcome.labelings[k].cost);
-      EXPECT_NE(outcome.labelings[k - 1].values, outcome.labelings[k].values);
-    }
-    best += outcome.labelings[0].cost == all[0].cost;
+    SCOPED_TRACE(seed);
+    solvable += !all.empty();
+    best += test::expect_honest(problem, outcome, all);
   }
   EXPECT_GE(best, solvable * 99 / 100) << best << " of " << solvable;
 }

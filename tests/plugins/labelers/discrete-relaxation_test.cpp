@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/run_context.h"
+#include "support/labeler_checks.h"
 #include "support/labeling_problems.h"
 #include "support/plugins.h"
 #include "toposcope/labeling/tools.h"
@@ -17,12 +18,6 @@ namespace {
 using namespace toposcope;
 
 using Domains = std::vector<std::vector<bool>>;
-
-std::string fact(const LabelingOutcome& outcome, std::string_view name) {
-  for (const LabelingFact& fact : outcome.facts)
-    if (fact.name == name) return fact.value;
-  return "";
-}
 
 Index missing_in(const LabelingProblem& problem, const std::vector<Index>& values) {
   Index missing = 0;
@@ -104,7 +99,7 @@ LabelingOutcome relax(const LabelingProblem& problem, const char* missing, bool 
 
 Domains left_by(const LabelingProblem& problem, const LabelingOutcome& outcome, bool with_missing) {
   Domains domains = open_domains(problem, with_missing);
-  for (const FallenValue& fallen : outcome.fallen) domains[fallen.variable][fallen.value] = false;
+  for (const RemovedValue& removed : outcome.removed) domains[removed.variable][removed.value] = false;
   return domains;
 }
 
@@ -116,19 +111,19 @@ TEST(DiscreteRelaxation, ReachesTheFixpointAndEveryValueFellForAReason) {
     for (const bool with_missing : {true, false}) {
       const LabelingOutcome outcome = relax(problem, with_missing ? "allowed" : "never", false);
       const Domains fixpoint = naive_fixpoint(problem, open_domains(problem, with_missing));
-      EXPECT_EQ(fact(outcome, "emptied domain").empty(), !emptied(fixpoint));
+      EXPECT_EQ(test::fact(outcome, "emptied domain").empty(), !emptied(fixpoint));
       if (emptied(fixpoint))
         ++wiped_out;
       else
         ASSERT_EQ(left_by(problem, outcome, with_missing), fixpoint);
       // Each value was without support when it fell, and fell once.
       Domains domains = open_domains(problem, with_missing);
-      for (const FallenValue& fallen : outcome.fallen) {
-        if (problem.variables[fallen.variable].missing(fallen.value) && !with_missing) continue;
-        EXPECT_TRUE(domains[fallen.variable][fallen.value]);
-        EXPECT_TRUE(unsupported(problem, domains, fallen.variable, fallen.value));
-        EXPECT_FALSE(fallen.reason.empty());
-        domains[fallen.variable][fallen.value] = false;
+      for (const RemovedValue& removed : outcome.removed) {
+        if (problem.variables[removed.variable].missing(removed.value) && !with_missing) continue;
+        EXPECT_TRUE(domains[removed.variable][removed.value]);
+        EXPECT_TRUE(unsupported(problem, domains, removed.variable, removed.value));
+        EXPECT_FALSE(removed.reason.empty());
+        domains[removed.variable][removed.value] = false;
         ++struck;
       }
     }
@@ -148,7 +143,7 @@ TEST(DiscreteRelaxation, NoValueOfASolutionFalls) {
         if (!consistent(problem, labeling.values) || (!with_missing && missing_in(problem, labeling.values) > 0))
           continue;
         for (Index v = 0; v < left.size(); ++v) ASSERT_TRUE(left[v][labeling.values[v]]);
-        EXPECT_EQ(fact(outcome, "emptied domain"), "");
+        EXPECT_EQ(test::fact(outcome, "emptied domain"), "");
       }
     }
   }
@@ -196,8 +191,8 @@ TEST(DiscreteRelaxation, FixpointDoesNotDependOnAnyOrder) {
     for (LabelingConstraint& constraint : reversed.constraints)
       for (Index& v : constraint.scope) v = static_cast<Index>(problem.variables.size() - 1 - v);
     const LabelingOutcome one = relax(problem, "never", false), other = relax(reversed, "never", false);
-    ASSERT_EQ(fact(one, "emptied domain").empty(), fact(other, "emptied domain").empty());
-    if (!fact(one, "emptied domain").empty()) continue;
+    ASSERT_EQ(test::fact(one, "emptied domain").empty(), test::fact(other, "emptied domain").empty());
+    if (!test::fact(one, "emptied domain").empty()) continue;
     Domains turned = left_by(reversed, other, false);
     std::reverse(turned.begin(), turned.end());
     EXPECT_EQ(left_by(problem, one, false), turned);
@@ -209,23 +204,23 @@ TEST(DiscreteRelaxation, FixpointDoesNotDependOnAnyOrder) {
 TEST(DiscreteRelaxation, FourQueens) {
   LabelingProblem problem = test::queens(4);
   LabelingOutcome outcome = relax(problem, "allowed", false);
-  EXPECT_TRUE(outcome.fallen.empty());
+  EXPECT_TRUE(outcome.removed.empty());
   EXPECT_TRUE(outcome.labelings.empty());
   EXPECT_FALSE(outcome.optimal);
-  EXPECT_EQ(fact(outcome, "domain of 'row0'"), "4 of 4: 0, 1, 2, 3");
+  EXPECT_EQ(test::fact(outcome, "domain of 'row0'"), "4 of 4: 0, 1, 2, 3");
   problem.variables[0].costs = {0, forbidden, forbidden, forbidden};
   outcome = relax(problem, "allowed", true);
   EXPECT_TRUE(outcome.labelings.empty());
   EXPECT_TRUE(outcome.optimal);
-  EXPECT_NE(fact(outcome, "emptied domain"), "");
+  EXPECT_NE(test::fact(outcome, "emptied domain"), "");
   EXPECT_EQ(outcome.nodes, 0U);
-  EXPECT_EQ(outcome.fallen[0].reason, "its cost is infinite");
+  EXPECT_EQ(outcome.removed[0].reason, "its cost is infinite");
   problem.variables[0].costs = {forbidden, 0, forbidden, forbidden};
   outcome = relax(problem, "allowed", false);
   ASSERT_EQ(outcome.labelings.size(), 1U);
   EXPECT_EQ(outcome.labelings[0].values, (std::vector<Index>{1, 3, 0, 2}));
   EXPECT_TRUE(outcome.optimal);
-  EXPECT_EQ(outcome.fallen[3].reason, "no value left of 'row0' meets 'rows 0 and 1' with it");
+  EXPECT_EQ(outcome.removed[3].reason, "no value left of 'row0' meets 'rows 0 and 1' with it");
 }
 
 TEST(DiscreteRelaxation, TellsTheExclusionAndWhatActsTogether) {
@@ -234,10 +229,10 @@ TEST(DiscreteRelaxation, TellsTheExclusionAndWhatActsTogether) {
   for (Index c = 0; c < 2; ++c) test::set_conflict(problem, c, c);
   problem.variables = {{"rim", 1, {0}, {0, 0}}, {"edge", 1, {0, 1}, {0, 0, 0}}};
   LabelingOutcome outcome = relax(problem, "never", false);
-  ASSERT_EQ(outcome.fallen.size(), 1U);
-  EXPECT_EQ(outcome.fallen[0].variable, 1U);
-  EXPECT_EQ(outcome.fallen[0].value, 1U);
-  EXPECT_EQ(outcome.fallen[0].reason, "no value of 'rim' can stand beside it: all share a vertex with it");
+  ASSERT_EQ(outcome.removed.size(), 1U);
+  EXPECT_EQ(outcome.removed[0].variable, 1U);
+  EXPECT_EQ(outcome.removed[0].value, 1U);
+  EXPECT_EQ(outcome.removed[0].reason, "no value of 'rim' can stand beside it: all share a vertex with it");
   ASSERT_EQ(outcome.labelings.size(), 1U);
   EXPECT_EQ(outcome.labelings[0].values, (std::vector<Index>{1, 2}));
 
@@ -246,16 +241,16 @@ TEST(DiscreteRelaxation, TellsTheExclusionAndWhatActsTogether) {
   r1.violations[1 * 3 + 2] = 2;
   problem.constraints.push_back(r1);
   outcome = relax(problem, "never", false);
-  EXPECT_EQ(fact(outcome, "emptied domain"), "edge");
-  ASSERT_FALSE(outcome.fallen.empty());
-  EXPECT_EQ(outcome.fallen.back().reason, "no value of 'rim' meets 'r1' with it");
+  EXPECT_EQ(test::fact(outcome, "emptied domain"), "edge");
+  ASSERT_FALSE(outcome.removed.empty());
+  EXPECT_EQ(outcome.removed.back().reason, "no value of 'rim' meets 'r1' with it");
   problem.variables[0] = {"rim", 1, {0, 1}, {0, 0, 0}};
   problem.constraints = {test::empty_constraint(problem, {0, 1})};
   problem.constraints[0].name = "r1";
   problem.constraints[0].violations[1 * 3 + 2] = 2;
   problem.constraints[0].violations[2 * 3 + 1] = 2;
   outcome = relax(problem, "never", false);
-  EXPECT_EQ(outcome.fallen[0].reason, "no value of 'rim' meets 'r1' and the exclusion with it");
+  EXPECT_EQ(outcome.removed[0].reason, "no value of 'rim' meets 'r1' and the exclusion with it");
 }
 
 TEST(DiscreteRelaxation, StoppedAndCancelled) {

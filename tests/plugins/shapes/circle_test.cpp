@@ -33,7 +33,7 @@ void add_handle(PointSets& sets, double radius, int count, std::uint64_t seed) {
 double error(const FittedShape& shape, const Vec3& center, const Vec3& normal, double radius) {
   return std::max({(vector_parameter(shape, "center") - center).norm() / radius,
                    line_angle(vector_parameter(shape, "normal"), normal),
-                   std::abs(parameter(shape, "radius")[0] - radius) / radius});
+                   std::abs(number_parameter(shape, "radius") - radius) / radius});
 }
 
 TEST(Circle, RecoversExactCircles) {
@@ -63,11 +63,11 @@ TEST(Circle, HandleOnTheRingDoesNotMoveIt) {
     const FittedShape fitted = fit(*fitter, ring);
     ASSERT_TRUE(fitted.summary.usable()) << fitted.summary.message;
     EXPECT_LT((vector_parameter(fitted, "center")).norm(), 0.1 * ring.mean_edge) << seed;
-    EXPECT_NEAR(parameter(fitted, "radius")[0], 10, 0.1 * ring.mean_edge) << seed;
+    EXPECT_NEAR(number_parameter(fitted, "radius"), 10, 0.1 * ring.mean_edge) << seed;
     EXPECT_LT(10 * line_angle(vector_parameter(fitted, "normal"), Vec3::UnitZ()), 0.1 * ring.mean_edge) << seed;
     EXPECT_GT(fitted.unexplained, 10);
     // Plain least squares fails on the same points: the test has teeth.
-    EXPECT_GT(std::abs(parameter(fit(*shape("circle", {{"method", "powell"}}), ring), "radius")[0] - 10),
+    EXPECT_GT(std::abs(number_parameter(fit(*shape("circle", {{"method", "powell"}}), ring), "radius") - 10),
               0.1 * ring.mean_edge);
   }
 }
@@ -90,7 +90,7 @@ TEST(Circle, ThickRingGivesItsMiddleLine) {
     const FittedShape fitted = fit(*fitter, sets);
     ASSERT_TRUE(fitted.summary.usable()) << fitted.summary.message;
     EXPECT_LT(vector_parameter(fitted, "center").norm(), 0.3 * sets.mean_edge);
-    EXPECT_NEAR(parameter(fitted, "radius")[0], 10, 0.2 * sets.mean_edge);
+    EXPECT_NEAR(number_parameter(fitted, "radius"), 10, 0.2 * sets.mean_edge);
   }
 }
 
@@ -98,7 +98,7 @@ TEST(Circle, QuarterArcIsUnbiasedAndSaysHowUncertainItIs) {
   const auto fitter = shape("circle");
   double sum = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed)
-    sum += parameter(fit(*fitter, arc(1, 200, pi / 2, 0.01, seed)), "radius")[0] / 200;
+    sum += number_parameter(fit(*fitter, arc(1, 200, pi / 2, 0.01, seed)), "radius") / 200;
   EXPECT_NEAR(sum, 1, 0.002);
   const FittedShape quarter = fit(*fitter, arc(1, 50, pi / 2, 0.01)), full = fit(*fitter, arc(1, 200, 2 * pi, 0.01));
   EXPECT_GT(measure(quarter, "radius").sd, 8 * measure(full, "radius").sd);
@@ -113,7 +113,7 @@ TEST(Circle, UncertaintyIsCalibrated) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
       const FittedShape fitted = fit(*fitter, arc(8, 100, turn, 0.05, seed));
       ASSERT_TRUE(fitted.summary.usable());
-      radius.add(parameter(fitted, "radius")[0] - 8, measure(fitted, "radius").sd);
+      radius.add(number_parameter(fitted, "radius") - 8, measure(fitted, "radius").sd);
       const Vec3 normal = vector_parameter(fitted, "normal"), c = vector_parameter(fitted, "center");
       for (int axis = 0; axis < 2; ++axis) {
         tilt.add(normal[axis], std::sqrt(fitted.covariance[static_cast<std::size_t>(3 + axis) * 8]));
@@ -159,7 +159,7 @@ TEST(Circle, DoesNotDependOnPoseScaleOrOrder) {
       const FittedShape moved = fit(*fitter, transformed(shuffled(ring, seed), rotation, scale, shift));
       ASSERT_TRUE(moved.summary.usable());
       EXPECT_LT(error(moved, rotation * (scale * vector_parameter(base, "center")) + shift,
-                      rotation * vector_parameter(base, "normal"), scale * parameter(base, "radius")[0]),
+                      rotation * vector_parameter(base, "normal"), scale * number_parameter(base, "radius")),
                 std::string(method) == "robust" ? 1e-6 : 1e-5);
       EXPECT_NEAR(moved.rms / scale, base.rms, 1e-5 * base.rms);
       EXPECT_NEAR(moved.explained, base.explained, 1e-5 * base.explained);
@@ -176,7 +176,7 @@ TEST(Circle, TwoRunsOnTwoThreadsGiveTheSameBits) {
     const FittedShape one = fit(*fitter, ring);
     FittedShape two;
     std::thread([&] { two = fit(*fitter, ring); }).join();  // another thread, with its own random numbers in NLopt
-    EXPECT_EQ(parameter(one, "center"), parameter(two, "center"));
+    EXPECT_EQ(parameter_values(one, "center"), parameter_values(two, "center"));
     EXPECT_EQ(one.covariance, two.covariance);
   }
 }
@@ -194,8 +194,9 @@ TEST(Circle, DegeneratePointsAreRefusedWithAReason) {
       EXPECT_FALSE(fitted.summary.message.empty());
     }
   }
-  EXPECT_NEAR(parameter(fit(*shape("circle"), {{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0)}, 1, {}}), "radius")[0], 1,
-              1e-9)
+  EXPECT_NEAR(
+      number_parameter(fit(*shape("circle"), {{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0)}, 1, {}}), "radius"), 1,
+      1e-9)
       << "three points determine a circle";
 }
 
@@ -203,7 +204,7 @@ TEST(Circle, PowellAgreesWithRobustOnCleanPoints) {
   const PointSets ring = arc(10, 200, 1.6 * pi, 0.02);
   const FittedShape robust = fit(*shape("circle"), ring), powell = fit(*shape("circle", {{"method", "powell"}}), ring);
   EXPECT_LT(error(powell, vector_parameter(robust, "center"), vector_parameter(robust, "normal"),
-                  parameter(robust, "radius")[0]),
+                  number_parameter(robust, "radius")),
             1e-3);
   EXPECT_LE(powell.summary.final_cost, powell.summary.initial_cost);
 }

@@ -11,7 +11,7 @@ constexpr double degrees = 180 / pi;
 double error(const FittedShape& shape, const Vec3& apex, const Vec3& axis, double half_angle, double away) {
   return std::max({(vector_parameter(shape, "apex") - apex).norm() / away,
                    line_angle(vector_parameter(shape, "axis"), axis),
-                   std::abs(parameter(shape, "half_angle")[0] / degrees - half_angle)});
+                   std::abs(number_parameter(shape, "half_angle") / degrees - half_angle)});
 }
 
 TEST(Cone, RecoversExactCones) {
@@ -51,7 +51,7 @@ TEST(Cone, UncertaintyIsCalibrated) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
       const FittedShape fitted = fit(*shape("cone"), cone_points(0.5, 5, 20, turn, 300, 0.1, seed));
       ASSERT_TRUE(fitted.summary.usable()) << fitted.summary.message;
-      angle.add(parameter(fitted, "half_angle")[0] - 0.5 * degrees, measure(fitted, "half_angle").sd);
+      angle.add(number_parameter(fitted, "half_angle") - 0.5 * degrees, measure(fitted, "half_angle").sd);
       const Vec3 axis = vector_parameter(fitted, "axis"), point = vector_parameter(fitted, "apex");
       for (int k = 0; k < 2; ++k) {
         tilt.add(axis[k], std::sqrt(fitted.covariance[static_cast<std::size_t>(3 + k) * 8]));

@@ -9,7 +9,7 @@ namespace {
 double error(const FittedShape& shape, const Vec3& point, const Vec3& axis, double radius) {
   const Vec3 off = vector_parameter(shape, "point") - point;
   return std::max({(off - off.dot(axis) * axis).norm() / radius, line_angle(vector_parameter(shape, "axis"), axis),
-                   std::abs(parameter(shape, "radius")[0] - radius) / radius});
+                   std::abs(number_parameter(shape, "radius") - radius) / radius});
 }
 
 TEST(Cylinder, RecoversExactCylinders) {
@@ -49,8 +49,8 @@ TEST(Cylinder, UncertaintyIsCalibrated) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
       const FittedShape fitted = fit(*shape("cylinder"), cylinder_points(8, 20, turn, 250, 0.1, seed));
       ASSERT_TRUE(fitted.summary.usable()) << fitted.summary.message;
-      radius.add(parameter(fitted, "radius")[0] - 8, measure(fitted, "radius").sd);
-      mean += parameter(fitted, "radius")[0] / 200;
+      radius.add(number_parameter(fitted, "radius") - 8, measure(fitted, "radius").sd);
+      mean += number_parameter(fitted, "radius") / 200;
       const Vec3 axis = vector_parameter(fitted, "axis"), point = vector_parameter(fitted, "point");
       for (int k = 0; k < 2; ++k) {
         tilt.add(axis[k], std::sqrt(fitted.covariance[static_cast<std::size_t>(3 + k) * 8]));

@@ -44,11 +44,11 @@ PointSets rings_with_fringes(double bend_of_fringe) {
     for (int i = 0; i < 24; ++i) {
       const double angle = 2 * pi * i / 24;
       sets.points.push_back(Vec3(0, 0, height) + 3 * Vec3(std::cos(angle), std::sin(angle), 0));
-      sets.bends.push_back(-0.5);
+      sets.integrated_mean_curvature.push_back(-0.5);
     }
     for (int i = 0; i < 12; ++i) {
       sets.points.push_back(Vec3(4 + 0.3 * i, 0, height));
-      sets.bends.push_back(bend_of_fringe);
+      sets.integrated_mean_curvature.push_back(bend_of_fringe);
     }
   }
   sets.offsets = {0, 36, 72};
@@ -69,15 +69,15 @@ TEST(LineGroup, SegmentBetweenTheCentroidsOfWhatBendsInwards) {
   EXPECT_GT(mismatch(endpoints(fitted(rings_with_fringes(-0.01), "centroids")), ends, false), 1);
 
   PointSets outwards = rings_with_fringes(5.0);
-  for (double& bend : outwards.bends) bend = -bend;
+  for (double& bend : outwards.integrated_mean_curvature) bend = -bend;
   EXPECT_LT(mismatch(endpoints(fitted(outwards, "convex")), ends, false), 1e-12);
 
   // Of sets that do not bend that way, or of which that is not known, the surface's centroids.
   PointSets flat = rings_with_fringes(0.0);
   const Corners of_surface = endpoints(fitted(flat, "centroids"));
-  flat.bends.assign(flat.bends.size(), 0.3);
+  flat.integrated_mean_curvature.assign(flat.integrated_mean_curvature.size(), 0.3);
   EXPECT_LT(mismatch(endpoints(fitted(flat, "concave")), of_surface, false), 1e-12);
-  flat.bends.clear();
+  flat.integrated_mean_curvature.clear();
   EXPECT_LT(mismatch(endpoints(fitted(flat, "concave")), of_surface, false), 1e-12);
 }
 
@@ -93,7 +93,7 @@ TEST(LineGroup, UncertaintyOfCentroidsOfWhatBendsCoversTheirErrors) {
           const double angle = 2 * pi * i / 24, bend = j == 0 ? 1 : 0.3;
           if (random.uniform() > (j == 0 ? 0.95 : 0.5)) continue;
           sets.points.push_back(Vec3(0, 0, height) + (4 + j) * Vec3(std::cos(angle), std::sin(angle), 0));
-          sets.bends.push_back(-bend * (0.8 + 0.4 * random.uniform()));
+          sets.integrated_mean_curvature.push_back(-bend * (0.8 + 0.4 * random.uniform()));
         }
       sets.offsets.push_back(static_cast<Index>(sets.points.size()));
     }

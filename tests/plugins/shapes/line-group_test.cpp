@@ -224,7 +224,7 @@ TEST(LineGroup, TwoRunsGiveTheSameBits) {
     const auto fitter = shape("line-group", {{"method", method}});
     const FittedShape one = fit(*fitter, sets, line_group(3).options()),
                       two = fit(*fitter, sets, line_group(3).options());
-    EXPECT_EQ(parameter(one, "endpoints"), parameter(two, "endpoints"));
+    EXPECT_EQ(parameter_values(one, "endpoints"), parameter_values(two, "endpoints"));
     EXPECT_EQ(one.covariance, two.covariance);
   }
 }

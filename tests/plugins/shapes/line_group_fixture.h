@@ -33,7 +33,7 @@ inline PointSets sampled(Corners corners, bool closed, double step, double noise
 }
 
 inline Corners endpoints(const FittedShape& fitted) {
-  const std::vector<double>& values = parameter(fitted, "endpoints");
+  const std::vector<double>& values = parameter_values(fitted, "endpoints");
   Corners corners;
   for (std::size_t i = 0; i < values.size(); i += 3) corners.push_back(Vec3(&values[i]));
   return corners;

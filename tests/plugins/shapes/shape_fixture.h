@@ -12,6 +12,7 @@
 
 #include "support/plugins.h"
 #include "toposcope/geometry/point_sets.h"
+#include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/shapes.h"
 
 namespace toposcope::test {
@@ -39,8 +40,8 @@ class Random {
 struct PointSets {
   std::vector<Vec3> points;
   double mean_edge = 1;
-  std::vector<Index> offsets;      ///< empty: one set
-  std::vector<double> bends = {};  ///< empty: the surface is not known to bend
+  std::vector<Index> offsets;                          ///< empty: one set
+  std::vector<double> integrated_mean_curvature = {};  ///< empty: not known
 };
 
 inline std::vector<Index> offsets_of(const PointSets& sets) {
@@ -69,7 +70,8 @@ inline FittedShape fit(const ShapeFitter& fitter, const PointSets& sets, const O
   const Box box = sets.points.empty() ? Box{} : oriented_box(sets.points);
   // Each point stands for a square of a mean edge.
   const std::vector<double> areas(sets.points.size(), sets.mean_edge * sets.mean_edge);
-  return fitter.fit({sets.points, areas, offsets, boxes, box, box, sets.mean_edge, sets.bends}, arguments, context());
+  return fitter.fit({sets.points, areas, offsets, boxes, box, box, sets.mean_edge, sets.integrated_mean_curvature},
+                    arguments, context());
 }
 
 inline PointSets transformed(PointSets sets, const Eigen::Matrix3d& rotation, double scale, const Vec3& shift) {
@@ -83,16 +85,6 @@ inline PointSets shuffled(PointSets sets, std::uint64_t seed) {
   for (std::size_t i = sets.points.size(); i > 1; --i)
     std::swap(sets.points[i - 1], sets.points[random.engine()() % i]);
   return sets;
-}
-
-inline const std::vector<double>& parameter(const FittedShape& shape, const std::string& name) {
-  for (const ShapeParameter& p : shape.parameters)
-    if (p.name == name) return p.values;
-  throw std::out_of_range("no parameter " + name);
-}
-
-inline Vec3 vector_parameter(const FittedShape& shape, const std::string& name) {
-  return Vec3(parameter(shape, name).data());
 }
 
 inline const Measure& measure(const FittedShape& shape, const std::string& name) {

@@ -6,7 +6,7 @@ namespace {
 
 double error(const FittedShape& shape, const Vec3& center, double radius) {
   return std::max((vector_parameter(shape, "center") - center).norm(),
-                  std::abs(parameter(shape, "radius")[0] - radius)) /
+                  std::abs(number_parameter(shape, "radius") - radius)) /
          radius;
 }
 
@@ -47,7 +47,7 @@ TEST(Sphere, UncertaintyIsCalibrated) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
       const FittedShape fitted = fit(*shape("sphere"), sphere_points(8, cap, 250, 0.1, seed));
       ASSERT_TRUE(fitted.summary.usable()) << fitted.summary.message;
-      radius.add(parameter(fitted, "radius")[0] - 8, measure(fitted, "radius").sd);
+      radius.add(number_parameter(fitted, "radius") - 8, measure(fitted, "radius").sd);
       const Vec3 c = vector_parameter(fitted, "center");
       across.add(c.x(), std::sqrt(fitted.covariance[0]));
       along.add(c.z(), std::sqrt(fitted.covariance[10]));

@@ -130,7 +130,7 @@ inline void expect_same_bits_on_another_thread(const ShapeFitter& fitter, const 
   FittedShape two;
   std::thread([&] { two = fit(fitter, sets); }).join();
   ASSERT_TRUE(one.summary.usable());
-  for (const ShapeParameter& each : one.parameters) EXPECT_EQ(parameter(two, each.name), each.values);
+  for (const ShapeParameter& each : one.parameters) EXPECT_EQ(parameter_values(two, each.name), each.values);
   EXPECT_EQ(one.covariance, two.covariance);
 }
 

@@ -9,8 +9,8 @@ namespace {
 double error(const FittedShape& shape, const Vec3& center, const Vec3& axis, double major, double minor) {
   return std::max({(vector_parameter(shape, "center") - center).norm() / minor,
                    line_angle(vector_parameter(shape, "axis"), axis),
-                   std::abs(parameter(shape, "major_radius")[0] - major) / minor,
-                   std::abs(parameter(shape, "minor_radius")[0] - minor) / minor});
+                   std::abs(number_parameter(shape, "major_radius") - major) / minor,
+                   std::abs(number_parameter(shape, "minor_radius") - minor) / minor});
 }
 
 TEST(Torus, RecoversExactTori) {
@@ -49,8 +49,8 @@ TEST(Torus, UncertaintyIsCalibrated) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
       const FittedShape fitted = fit(*shape("torus"), torus_points(10, 4, turn, 2 * pi, 350, 0.1, seed));
       ASSERT_TRUE(fitted.summary.usable()) << fitted.summary.message;
-      major.add(parameter(fitted, "major_radius")[0] - 10, measure(fitted, "major_radius").sd);
-      minor.add(parameter(fitted, "minor_radius")[0] - 4, measure(fitted, "minor_radius").sd);
+      major.add(number_parameter(fitted, "major_radius") - 10, measure(fitted, "major_radius").sd);
+      minor.add(number_parameter(fitted, "minor_radius") - 4, measure(fitted, "minor_radius").sd);
       const Vec3 axis = vector_parameter(fitted, "axis"), c = vector_parameter(fitted, "center");
       for (int k = 0; k < 3; ++k) {
         if (k < 2) tilt.add(axis[k], std::sqrt(fitted.covariance[static_cast<std::size_t>(3 + k) * 9]));

@@ -25,7 +25,7 @@ WorkingSets classify(const Mesh& mesh, unsigned threads = 2,
   settings.threads = threads;
   RunContext context(settings);
   // classify_mesh refuses sets that are not connected, out of range or of a type that is not provided.
-  return classify_mesh(mesh.view(), *test::worksets("curvature-tree", options), "curvature-tree", types, context);
+  return classify_mesh(mesh.view(), {"curvature-tree", types, test::worksets("curvature-tree", options)}, context);
 }
 
 /// Every set is a whole component of {field >= t}: nothing just outside of it is as high as its lowest vertex.

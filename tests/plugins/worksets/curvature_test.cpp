@@ -15,8 +15,9 @@ namespace {
 
 WorkingSets classify(const Mesh& mesh, const std::vector<std::pair<std::string, std::string>>& options = {}) {
   RunContext context;
-  return classify_mesh(mesh.view(), *test::worksets("curvature", options), "curvature",
-                       {"convex", "concave", "planar", "other"}, context);
+  return classify_mesh(mesh.view(),
+                       {"curvature", {"convex", "concave", "planar", "other"}, test::worksets("curvature", options)},
+                       context);
 }
 
 std::size_t count(const WorkingSets& sets, const std::string& type) {

@@ -1,13 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** A run of numbers in a document: base64 of little-endian bytes. */
-export interface Buffer {
-  type: 'f32' | 'u32' | 'u16' | 'u8' | 'q16';
-  count: number;
-  data: string;
-  /** Of q16: value = min + step * u16, three for each point. */
-  min?: [number, number, number];
-  step?: [number, number, number];
-}
+import type { Bytes, Indices, Points, Quantised } from '@schemas/scene';
 
 /** `atob` into bytes; a text that is no base64 throws. */
 export function bytesOf(base64: string): Uint8Array {
@@ -19,7 +11,7 @@ export function bytesOf(base64: string): Uint8Array {
 
 const WIDTH = { f32: 4, u32: 4, u16: 2, u8: 1, q16: 2 };
 
-function checked(buffer: Buffer, name: string): DataView {
+function checked(buffer: Bytes | Indices | Points | Quantised, name: string): DataView {
   const width = WIDTH[buffer.type];
   if (!width) throw new Error(`${name}: unknown buffer type '${buffer.type}'; known are ${Object.keys(WIDTH).join(', ')}`);
   const bytes = bytesOf(buffer.data);
@@ -29,7 +21,7 @@ function checked(buffer: Buffer, name: string): DataView {
 }
 
 /** Coordinates, as f32 or q16. */
-export function floats(buffer: Buffer, name: string): Float32Array {
+export function floats(buffer: Points | Quantised, name: string): Float32Array {
   const view = checked(buffer, name);
   const values = new Float32Array(buffer.count);
   if (buffer.type === 'f32') {
@@ -44,7 +36,7 @@ export function floats(buffer: Buffer, name: string): Float32Array {
 }
 
 /** Indices and labels, as u32, u16 or u8. */
-export function indices(buffer: Buffer, name: string): Uint32Array {
+export function indices(buffer: Bytes | Indices, name: string): Uint32Array {
   const view = checked(buffer, name);
   const values = new Uint32Array(buffer.count);
   for (let i = 0; i < values.length; ++i) {

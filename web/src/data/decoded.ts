@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A scene document with its buffers read, as the views take it.
+import type { Feature, ResultDocument } from '@schemas/result';
+import type { Candidate, Drawing, Point, SceneDocument } from '@schemas/scene';
 import { floats, indices } from './buffers';
 import { directions, type Axis } from './directions';
-import type { Candidate, Drawing, Feature, Point, SceneDocument } from './scene';
 import { marksOfTruth, type Marks } from './truth';
 
 export interface SurfaceData {
@@ -21,16 +22,11 @@ export interface NamedFeature {
   candidate: Candidate | null;
 }
 
-const FALLBACK = ['#009e73', '#cc79a7', '#56b4e9', '#e69f00', '#0072b2', '#d55e00', '#f0e442', '#5a5a5a'];
-const FALLBACK_SETS: Record<string, string> = { convex: '#d55e00', concave: '#0072b2', planar: '#009e73' };
-export const SPARE_SET_COLOR = '#cc79a7';
-
 export class Scene {
   readonly input: SurfaceData & { labels: Uint32Array; faces: Uint32Array | null; vertexIds: Uint32Array | null };
   /** What working sets index. */
   readonly analysed: SurfaceData;
   readonly features: NamedFeature[];
-  readonly setColors: Map<string, string>;
   private setVertices = new Map<number, Uint32Array>();
 
   constructor(readonly document: SceneDocument) {
@@ -49,28 +45,28 @@ export class Scene {
           triangles: indices(normalised.triangles, 'surfaces.normalised.triangles'),
         }
       : this.input;
-    const found = new Map((document.found ?? []).map((each) => [each.feature, each]));
+    const found = new Map(document.found.map((each) => [each.feature, each]));
     this.features = Object.entries(document.result.features).map(([name, feature], index) => ({
       name,
       index,
-      color: document.palette?.features?.[index] ?? FALLBACK[index % FALLBACK.length]!,
+      color: document.palette.features[index]!,
       feature,
       drawing: found.get(name)?.drawing ?? null,
       candidate: this.candidate(name, found.get(name)?.rank ?? 0),
     }));
-    this.setColors = new Map();
-    for (const type of this.setTypes)
-      this.setColors.set(type, document.palette?.worksets?.[type] ?? FALLBACK_SETS[type] ?? SPARE_SET_COLOR);
   }
 
-  get result(): SceneDocument['result'] {
+  get result(): ResultDocument {
     return this.document.result;
   }
 
   /** In the order in which the document names them. */
   get setTypes(): string[] {
-    const { all_working_sets = [], working_sets = [] } = this.document;
-    return [...new Set([...all_working_sets, ...working_sets].map((set) => set.type))];
+    return this.document.all_working_sets.map((set) => set.type);
+  }
+
+  setColor(type: string): string {
+    return this.document.palette.worksets[type]!;
   }
 
   feature(name: string | null): NamedFeature | null {
@@ -78,19 +74,19 @@ export class Scene {
   }
 
   candidates(feature: string): Candidate[] {
-    return (this.document.candidates ?? []).filter((c) => c.feature === feature).sort((a, b) => a.rank - b.rank);
+    return this.document.candidates.filter((c) => c.feature === feature).sort((a, b) => a.rank - b.rank);
   }
 
   candidate(feature: string, rank: number): Candidate | null {
-    return (this.document.candidates ?? []).find((c) => c.feature === feature && c.rank === rank) ?? null;
+    return this.document.candidates.find((c) => c.feature === feature && c.rank === rank) ?? null;
   }
 
   /** Vertices of a written working set. */
   set(index: number): Uint32Array {
     let vertices = this.setVertices.get(index);
     if (!vertices) {
-      const set = this.document.working_sets?.[index];
-      vertices = set ? indices(set.vertices, `working_sets[${index}].vertices`) : new Uint32Array();
+      const set = this.document.working_sets[index]!;
+      vertices = indices(set.vertices, `working_sets[${index}].vertices`);
       this.setVertices.set(index, vertices);
     }
     return vertices;
@@ -98,10 +94,8 @@ export class Scene {
 
   /** All sets of a type together. */
   union(type: string): Uint32Array {
-    const all = this.document.all_working_sets?.find((set) => set.type === type);
-    if (all) return indices(all.vertices, `all_working_sets ${type}`);
-    const sets = (this.document.working_sets ?? []).flatMap((set, i) => (set.type === type ? [this.set(i)] : []));
-    return Uint32Array.from(sets.flatMap((set) => [...set]));
+    const all = this.document.all_working_sets.find((set) => set.type === type)!;
+    return indices(all.vertices, `all_working_sets ${type}`);
   }
 
   directions(middle: Point): Partial<Record<Axis, Point>> {
@@ -133,14 +127,14 @@ export class Scene {
 
   /** How many groups of marks a feature takes: one for each working set of a feature that has several. */
   groups(name: string): number {
-    return Math.max(1, this.document.model?.features?.[name]?.worksets?.length ?? 1);
+    return Math.max(1, this.document.model?.features[name]?.worksets.length ?? 1);
   }
 }
 
 /** The middle of a drawing's box. */
 export function middleOf(drawing: Drawing): Point | null {
   const low: Point = [Infinity, Infinity, Infinity], high: Point = [-Infinity, -Infinity, -Infinity];
-  for (const buffer of [...(drawing.lines ?? []), ...(drawing.patches ?? []).map((patch) => patch.positions)])
+  for (const buffer of [...drawing.lines, ...drawing.patches.map((patch) => patch.positions)])
     floats(buffer, 'drawing').forEach((x, i) => {
       low[i % 3] = Math.min(low[i % 3]!, x);
       high[i % 3] = Math.max(high[i % 3]!, x);

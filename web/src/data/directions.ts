@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which way is up: the object's own directions, from the model's spatial associations and the features that were found.
-import type { ModelFile, Point } from './scene';
+import type { ModelDocument } from '@schemas/model';
+import type { Point } from '@schemas/scene';
 
 export type Axis = 'up' | 'front' | 'right';
 const AXES: Record<string, [Axis, 1 | -1]> = {
@@ -8,7 +9,7 @@ const AXES: Record<string, [Axis, 1 | -1]> = {
 };
 
 /** All objects that the object holds, through its parts and its bounds, itself too. */
-function held(model: ModelFile, object: string): Set<string> {
+function held(model: ModelDocument, object: string): Set<string> {
   const seen = new Set<string>();
   const open = [object];
   for (let next = open.pop(); next !== undefined; next = open.pop()) {
@@ -40,18 +41,18 @@ interface Sum {
  * that it holds; one that holds none, at `middle`. A fin that is up of the fuselage lies far back too: what an axis has of a surer one, or
  * of one before it in the order right, front, up, is taken away.
  */
-export function directions(model: ModelFile | undefined, places: Map<string, Point>, middle: Point): Partial<Record<Axis, Point>> {
+export function directions(model: ModelDocument | undefined, places: Map<string, Point>, middle: Point): Partial<Record<Axis, Point>> {
   if (!model) return {};
   const place = (object: string): Point | null => {
     const inside = held(model, object);
-    const own = Object.entries(model.features ?? {}).filter(([, feature]) => feature.realises && inside.has(feature.realises));
+    const own = Object.entries(model.features).filter(([, feature]) => feature.realises && inside.has(feature.realises));
     return mean(own.flatMap(([name]) => (places.has(name) ? [places.get(name)!] : [])));
   };
   const sums: Sum[] = (['right', 'front', 'up'] as const).map((axis) => ({ axis, sum: [0, 0, 0], sure: 0 }));
-  for (const association of model.associations ?? [])
-    for (const [relation, to] of Object.entries(association)) {
-      const axis = AXES[relation], from = association['from'];
-      if (!axis || !from) continue;
+  for (const { from, ...relations } of model.associations ?? [])
+    for (const [relation, to] of Object.entries(relations)) {
+      const axis = AXES[relation];
+      if (!axis) continue;
       const a = place(from), b = place(to);
       if (!a && !b) continue;
       const entry = sums.find((each) => each.axis === axis[0])!;

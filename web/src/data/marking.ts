@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-import { marksOfTruth, parseTruth, textOfTruth, truthOf, type FeatureMarks, type Header, type Mark, type Marks, type TruthFile } from './truth';
+import type { TruthDocument } from '@schemas/truth';
+import { marksOfTruth, parseTruth, textOfTruth, truthOf, type FeatureMarks, type Header, type Mark, type Marks } from './truth';
 
 const copyOf = (marks: Marks): Marks =>
   new Map([...marks].map(([name, { absent, groups }]) => [name, { absent, groups: groups.map((group) => [...group]) }]));
@@ -13,7 +14,7 @@ export class Marking {
   /** The class of the object: that of the file, or else what the header says. */
   className: string;
 
-  constructor(private now: Marks, private file: TruthFile | null, private header: Header) {
+  constructor(private now: Marks, private file: TruthDocument | null, private header: Header) {
     this.className = file?.class || header.class;
   }
 

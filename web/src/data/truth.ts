@@ -1,30 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Marks made by hand, and the truth file that `toposcope evaluate` reads (schemas/truth.schema.json).
-import type { Point } from './scene';
-
-export interface TruthGroup {
-  name: string;
-  vertices?: number[];
-  points: Point[];
-  centroid?: Point;
-}
-
-export interface TruthFeature {
-  vertices?: number[];
-  points?: Point[];
-  groups?: TruthGroup[];
-  shape?: string;
-  parameters?: Record<string, unknown>;
-}
-
-export interface TruthFile {
-  schema?: string;
-  mesh: string;
-  class: string;
-  features: Record<string, TruthFeature>;
-  frame?: Record<string, unknown>;
-  [more: string]: unknown;
-}
+import type { Feature, Group, Point, TruthDocument } from '@schemas/truth';
 
 /** One marked vertex; `vertex` is its index in the input mesh, null where a file names none. */
 export interface Mark {
@@ -57,7 +33,7 @@ function checkPoints(value: unknown, place: string): void {
 }
 
 /** Reads a truth file's text; errors name the member as a JSON pointer. */
-export function parseTruth(text: string): TruthFile {
+export function parseTruth(text: string): TruthDocument {
   let root: unknown;
   try {
     root = JSON.parse(text);
@@ -65,7 +41,7 @@ export function parseTruth(text: string): TruthFile {
     return fail('truth file', `is no JSON: ${(error as Error).message}`);
   }
   if (typeof root !== 'object' || root === null || Array.isArray(root)) fail('/', 'a truth file holds a JSON object');
-  const file = root as TruthFile;
+  const file = root as TruthDocument;
   if (typeof file.features !== 'object' || file.features === null || Array.isArray(file.features))
     fail('/features', 'expected an object of features by name');
   for (const [name, feature] of Object.entries(file.features)) {
@@ -79,7 +55,7 @@ export function parseTruth(text: string): TruthFile {
   return file;
 }
 
-export function marksOfTruth(file: TruthFile): Marks {
+export function marksOfTruth(file: TruthDocument): Marks {
   const marks: Marks = new Map();
   for (const [name, feature] of Object.entries(file.features)) {
     const groups = feature.groups?.length
@@ -107,13 +83,13 @@ const verticesOf = (list: Mark[]): number[] | undefined => {
     : undefined;
 };
 
-function group(list: Mark[], name: string): TruthGroup {
+function group(list: Mark[], name: string): Group {
   const points = list.map((mark) => mark.point);
   const vertices = verticesOf(list);
   return { name, ...(vertices ? { vertices } : {}), points, centroid: centroid(points) };
 }
 
-function featureOf(marks: FeatureMarks, before: TruthFeature | undefined): TruthFeature {
+function featureOf(marks: FeatureMarks, before: Feature | undefined): Feature {
   if (marks.absent) return { points: [] };
   const grouped = marks.groups.length > 1;
   if (grouped) {
@@ -142,9 +118,9 @@ export interface Header {
  * what the program made.
  * Features without any mark are left out, as not judged: an absent one is said to be absent.
  */
-export function truthOf(marks: Marks, header: Header, before: TruthFile | null): TruthFile {
+export function truthOf(marks: Marks, header: Header, before: TruthDocument | null): TruthDocument {
   const earlier = before ? marksOfTruth(before) : new Map<string, FeatureMarks>();
-  const features: Record<string, TruthFeature> = {};
+  const features: Record<string, Feature> = {};
   let changed = false;
   for (const [name, feature] of marks) {
     if (before && before.features[name] && sameMarks(feature, earlier.get(name))) {
@@ -155,7 +131,7 @@ export function truthOf(marks: Marks, header: Header, before: TruthFile | null):
     if (feature.absent || feature.groups.some((list) => list.length > 0))
       features[name] = featureOf(feature, before?.features[name]);
   }
-  const file: TruthFile = {
+  const file: TruthDocument = {
     schema: 'toposcope.truth/1',
     ...(before ?? {}),
     mesh: before?.mesh || header.mesh,
@@ -163,12 +139,12 @@ export function truthOf(marks: Marks, header: Header, before: TruthFile | null):
     features,
     frame: { mean_edge: header.mean_edge, bbox_diagonal: header.bbox_diagonal, ...(before?.frame ?? {}) },
   };
-  if (changed) delete file['sample'];
+  if (changed) delete file.sample;
   return file;
 }
 
 /** One line for each point, so that files compare well. */
-export function textOfTruth(file: TruthFile): string {
+export function textOfTruth(file: TruthDocument): string {
   return JSON.stringify(file, null, 1).replace(/\[\s+(-?[\d.e+-]+(?:,\s+-?[\d.e+-]+)*)\s+\]/g, (_all, inside: string) =>
     `[${inside.replace(/\s+/g, ' ')}]`,
   ) + '\n';

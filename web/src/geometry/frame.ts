@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From which side an object is first looked at.
 import { Vector3 } from 'three';
+import type { Point } from '@schemas/scene';
 import type { Axis } from '../data/directions';
-import type { Point } from '../data/scene';
 import { DepthImage, spread } from './depth_image';
 
 export interface Frame {

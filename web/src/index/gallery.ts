@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-import type { MeshCard } from '../data/index_document';
+import type { MeshCard } from '@schemas/index';
 import { plural, probability } from '../data/numbers';
 import { h } from '../ui/dom';
-import { kindOf, verdictChip } from './verdicts';
+import { KINDS, verdictChip } from './verdicts';
 
 function card(mesh: MeshCard): HTMLElement {
-  const verdicts = Object.entries(mesh.verdicts ?? {});
+  const verdicts = Object.entries(mesh.verdicts);
   const picture = mesh.thumbnail
     ? h('img', { src: mesh.thumbnail, alt: '', loading: 'lazy' })
     : h('span', { class: 'no-picture' }, 'no picture');
@@ -14,7 +14,7 @@ function card(mesh: MeshCard): HTMLElement {
     'li', { class: 'card' },
     h('div', { class: 'thumbnail' }, picture),
     h('div', { class: 'about' }, h('h3', {}, name), mesh.dataset && h('small', {}, mesh.dataset), mesh.probability !== null && mesh.probability !== undefined ? h('small', {}, `probability ${probability(mesh.probability)}`) : null,
-      h('div', { class: 'verdicts' }, verdicts.map(([feature, verdict]) => h('span', { title: `${feature}: ${verdict}` }, verdictChip(verdict, `${feature}${kindOf(verdict) === 'met' ? '' : ` ${verdict}`}`))))),
+      h('div', { class: 'verdicts' }, verdicts.map(([feature, verdict]) => h('span', { title: `${feature}: ${verdict}` }, verdictChip(verdict, `${feature}${KINDS[verdict] === 'met' ? '' : ` ${verdict}`}`))))),
   );
 }
 
@@ -23,7 +23,7 @@ const SHOWN = 60;
 /** Cards of the meshes, those with faults first on demand. */
 export function gallery(meshes: MeshCard[]): HTMLElement {
   const list = h('ul', { class: 'gallery' });
-  const faults = (mesh: MeshCard): number => Object.values(mesh.verdicts ?? {}).filter((verdict) => kindOf(verdict) === 'broken').length;
+  const faults = (mesh: MeshCard): number => Object.values(mesh.verdicts).filter((verdict) => KINDS[verdict] === 'broken').length;
   const amount = h('small', { role: 'status' });
   const filter = h('input', { type: 'search', placeholder: 'filter by name', 'aria-label': 'Filter meshes by name', oninput: () => fill() });
   const only = h('input', { type: 'checkbox', onchange: () => fill() });

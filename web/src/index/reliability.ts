@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-import type { ReliabilityCurve } from '../data/index_document';
+import type { ReliabilityCurve } from '@schemas/index';
 import { figure, plural } from '../data/numbers';
 import { h, svg } from '../ui/dom';
 
@@ -16,7 +16,7 @@ export function wilson(right: number, count: number): [number, number] {
 
 /** Share that was right against the probability that was given, and how often each was given. */
 export function reliabilityFigure(curve: ReliabilityCurve): HTMLElement {
-  const bins = curve.bins.filter((bin) => bin.count > 0);
+  const { bins } = curve;
   const x = (p: number): number => LEFT + SIZE * p, y = (p: number): number => TOP + SIZE * (1 - p);
   const most = Math.max(1, ...bins.map((bin) => bin.count)), bottom = TOP + SIZE + GAP + HISTOGRAM;
   const total = bins.reduce((sum, bin) => sum + bin.count, 0);
@@ -42,5 +42,5 @@ export function reliabilityFigure(curve: ReliabilityCurve): HTMLElement {
     svg('text', { x: x(0.5), y: bottom + 31, 'text-anchor': 'middle', class: 'title' }, 'probability given'),
     svg('text', { x: 11, y: y(0.5), 'text-anchor': 'middle', class: 'title', transform: `rotate(-90 11 ${y(0.5)})` }, 'share right'),
   );
-  return h('figure', {}, chart, h('figcaption', {}, h('b', {}, curve.name), `${plural(total, 'answer')}${curve.ece === null || curve.ece === undefined ? '' : `, calibration error ${figure(curve.ece, 2)}`}`));
+  return h('figure', {}, chart, h('figcaption', {}, h('b', {}, curve.name), `${plural(total, 'answer')}, calibration error ${figure(curve.ece, 2)}`));
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-import type { Cell, Kind, Table } from '../data/index_document';
+import type { Cell, Kind, Table, Verdict } from '@schemas/index';
 import { count, figure, milliseconds, plural } from '../data/numbers';
 import { h } from '../ui/dom';
 import { verdictChip } from './verdicts';
 
 export function cellText(value: Cell, kind: Kind): string {
   if (value === null) return '–';
-  if (typeof value === 'boolean') return value ? 'yes' : 'no';
   if (typeof value === 'string') return value;
   if (kind === 'percent') return `${figure(100 * value, 3)} %`;
   if (kind === 'ms') return milliseconds(value);
@@ -54,7 +53,7 @@ export function tableSection(table: Table): HTMLElement {
   };
   const cell = (value: Cell, i: number, row: number): HTMLElement => {
     const { kind } = table.columns[i]!, text = cellText(value, kind), link = table.links?.[row];
-    const content = kind === 'verdict' && typeof value === 'string' ? verdictChip(value) : i === 0 && link ? h('a', { href: link }, text) : text;
+    const content = kind === 'verdict' && typeof value === 'string' ? verdictChip(value as Verdict) : i === 0 && link ? h('a', { href: link }, text) : text;
     return h(i === 0 ? 'th' : 'td', { scope: i === 0 ? 'row' : null, class: kind === 'text' ? (text.length > LONG ? 'long' : '') : kind === 'verdict' ? '' : 'numeric' }, content);
   };
   const fill = (): void => {

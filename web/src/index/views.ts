@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Results side by side; turning one turns all.
-import type { IndexDocument } from '../data/index_document';
+import type { IndexDocument } from '@schemas/index';
 import { Scene } from '../data/decoded';
 import { Marking } from '../data/marking';
 import { probability } from '../data/numbers';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-import type { Relation } from '../data/scene';
+import type { Relation } from '@schemas/result';
 import { figure, probability } from '../data/numbers';
 import { h } from './dom';
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+import type { FoundFeature, MissingFeature, Parameters } from '@schemas/result';
 import { nearestCandidate } from '../view/compose';
 import { figure, plural, probability, vector } from '../data/numbers';
-import type { FoundFeature, MissingFeature, Parameters } from '../data/scene';
 import type { NamedFeature, Scene } from '../data/decoded';
 import type { Store } from '../state';
 import { probabilityBar, residualText } from './bars';
@@ -40,7 +40,7 @@ function measureRows(feature: FoundFeature, unit: string): [string, string][] {
 }
 
 function foundDetail(scene: Scene, store: Store, { name }: NamedFeature, feature: FoundFeature, turnTo: TurnTo): HTMLElement {
-  const unit = scene.document.unit ?? '';
+  const unit = scene.document.unit;
   const direction = feature.uncertainty['direction_deg'];
   return h(
     'div', { class: 'detail' },
@@ -57,7 +57,7 @@ function foundDetail(scene: Scene, store: Store, { name }: NamedFeature, feature
 }
 
 function missingDetail(scene: Scene, store: Store, named: NamedFeature, feature: MissingFeature): HTMLElement {
-  const { why } = feature, unit = scene.document.unit ?? '';
+  const { why } = feature, unit = scene.document.unit;
   const nearest = nearestCandidate(scene, named);
   const against = [...(why.conflict?.relations ?? []).map((each) => `breaks ${each}`), ...(why.conflict?.exclusions ?? []).map((each) => `shares vertices with ${each}`)];
   return h(
@@ -74,7 +74,7 @@ function missingDetail(scene: Scene, store: Store, named: NamedFeature, feature:
 function candidatesButton(scene: Scene, store: Store, name: string): HTMLElement | null {
   const n = scene.candidates(name).length;
   return n === 0 ? null : h(
-    'button', { class: 'link', 'data-key': `candidates:${name}`, onclick: () => store.set({ stage: 'constructed', candidateOf: name, rank: 1 }) },
+    'button', { class: 'link', 'data-key': `candidates:${name}`, onclick: () => store.set({ stage: 'candidates', candidateOf: name, rank: 1 }) },
     `Look at its ${plural(n, 'candidate')}`,
   );
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+import type { Relation } from '@schemas/result';
 import { probability } from '../data/numbers';
-import type { Relation } from '../data/scene';
 import type { Scene } from '../data/decoded';
 import type { Store } from '../state';
 import { residualBar, residualText } from './bars';
@@ -27,11 +27,11 @@ function row(scene: Scene, store: Store, relation: Relation): HTMLElement {
       },
       h('span', { class: `verdict ${kind}` }, icon(mark, 16), h('span', { class: 'unseen' }, text)),
       h(
-        'span', { class: 'name' }, h('span', {}, relation.type, h('code', {}, relation.name)),
+        'span', { class: 'name' }, h('span', {}, relation.type, ' ', h('code', {}, relation.name)),
         h('small', {}, relation.features.map((name, i) => [i > 0 ? ' ' : '', h('span', { class: 'chip' }, swatch(scene.feature(name)?.color ?? '#888888'), name)])),
       ),
       tested
-        ? h('span', { class: 'measure' }, residualBar(relation), h('small', {}, residualText(relation, scene.document.unit ?? '')))
+        ? h('span', { class: 'measure' }, residualBar(relation), h('small', {}, residualText(relation, scene.document.unit)))
         : h('span', { class: 'measure' }, h('small', {}, text)),
     ),
   );

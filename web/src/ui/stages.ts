@@ -10,18 +10,17 @@ import { icon } from './icons';
 import { rows } from './features_panel';
 import { markingTools } from './marking_tools';
 
-export const TITLES: Record<Stage, string> = { mesh: 'Mesh', sets: 'Working sets', constructed: 'Constructed features', found: 'Found features', marks: 'Marks' };
-const SHORT: Record<Stage, string> = { ...TITLES, constructed: 'Constructed', found: 'Found' };
+export const TITLES: Record<Stage, string> = { mesh: 'Mesh', worksets: 'Working sets', candidates: 'Candidates', found: 'Found', marks: 'Marks' };
 
 function summary(scene: Scene, marking: Marking, stage: Stage): string {
-  const { document, result } = scene;
+  const { result } = scene;
   switch (stage) {
     case 'mesh':
       return plural(result.mesh.faces, 'face');
-    case 'sets':
+    case 'worksets':
       return `${plural(result.working_sets, 'set')}, ${plural(scene.setTypes.length, 'type')}`;
-    case 'constructed':
-      return `${count(Object.values(result.candidates).reduce((sum, each) => sum + (each['kept'] ?? 0), 0) || (document.candidates?.length ?? 0))} candidates`;
+    case 'candidates':
+      return `${count(Object.values(result.candidates).reduce((sum, { kept }) => sum + kept, 0))} in all`;
     case 'found':
       return `${scene.features.filter(({ feature }) => feature.present).length} of ${scene.features.length}`;
     case 'marks':
@@ -37,7 +36,7 @@ export function stageNavigation(scene: Scene, store: Store, marking: Marking): H
         'aria-keyshortcuts': String(i + 1), onclick: () => store.set({ stage }),
       },
       h('span', { class: 'number', 'aria-hidden': 'true' }, i + 1),
-      h('span', { class: 'name' }, SHORT[stage], h('small', {}, summary(scene, marking, stage))),
+      h('span', { class: 'name' }, TITLES[stage], h('small', {}, summary(scene, marking, stage))),
     )),
   ));
 }
@@ -69,7 +68,7 @@ function meshTools(scene: Scene): HTMLElement[] {
 }
 
 function setTools(scene: Scene, store: Store): HTMLElement[] {
-  const { state } = store, sets = scene.document.working_sets ?? [];
+  const { state } = store, sets = scene.document.working_sets;
   const current = state.set === null ? null : sets[state.set];
   const nodes: HTMLElement[] = [
     h('p', {}, 'Connected regions of one kind of curvature, from the bottom up, at every scale: the material that shapes are fitted to. Sets overlap; a place has the colour of the smallest set that holds it.'),
@@ -83,7 +82,7 @@ function setTools(scene: Scene, store: Store): HTMLElement[] {
             store.set({ hiddenTypes: hidden, set: null });
           },
         },
-        swatch(scene.setColors.get(type)!), type,
+        swatch(scene.setColor(type)), type,
       ))),
   ];
   if (sets.length > 0) {
@@ -91,7 +90,7 @@ function setTools(scene: Scene, store: Store): HTMLElement[] {
       h('h3', {}, 'One at a time'),
       stepper('set', 'working set', (state.set ?? -1) + 1, sets.length, (n) => store.set({ set: n - 1 })),
       current
-        ? h('p', { class: 'fact' }, swatch(scene.setColors.get(current.type)!), ` ${current.type}, ${plural(current.size, 'vertex', 'vertices')}${current.level === null || current.level === undefined ? '' : `, stands out ${figure(100 * current.level, 2)} %`}`)
+        ? h('p', { class: 'fact' }, swatch(scene.setColor(current.type)), ` ${current.type}, ${plural(current.size, 'vertex', 'vertices')}${current.saliency === null ? '' : `, stands out ${figure(100 * current.saliency, 2)} %`}`)
         : h('p', { class: 'hint' }, 'Or click the surface: sets at that place, the smallest first.'),
     );
     if (current) nodes.push(h('button', { class: 'link', 'data-key': 'sets:all', onclick: () => store.set({ set: null }) }, 'Show all sets by type'));
@@ -113,7 +112,7 @@ function candidateTools(scene: Scene, store: Store): HTMLElement[] {
   const list = state.candidateOf === null ? [] : scene.candidates(state.candidateOf);
   const current = list.find((each) => each.rank === state.rank) ?? list[0];
   const nodes: HTMLElement[] = [
-    h('p', {}, 'Shapes fitted to the working sets of each feature, within the ranges of the model; one of them, or none, will be the feature.'),
+    h('p', {}, 'Constructed features: shapes fitted to the working sets of each feature, within the ranges of the model; one of them, or none, will be the feature.'),
     h(
       'div', { class: 'chips', role: 'group', 'aria-label': 'Candidates of a feature' },
       h('button', { class: 'toggle', 'data-key': 'candidates:all', 'aria-pressed': state.candidateOf === null ? 'true' : 'false', onclick: () => choose(null) }, 'all'),
@@ -125,7 +124,7 @@ function candidateTools(scene: Scene, store: Store): HTMLElement[] {
   if (state.candidateOf === null) return [...nodes, shapeLegend(scene)];
   if (!current) return [...nodes, h('p', { class: 'notice' }, `No shape could be fitted for ${state.candidateOf} within its ranges.`)];
   const position = list.indexOf(current) + 1;
-  const kept = scene.result.candidates[state.candidateOf]?.['kept'] ?? list.length;
+  const kept = scene.result.candidates[state.candidateOf]?.kept ?? list.length;
   nodes.push(
     h('h3', {}, `Candidate ${position} of ${list.length}`, list.length < kept ? h('small', {}, ` (${count(kept)} kept)`) : null),
     stepper('candidate', 'candidate', position, list.length, (n) => store.set({ rank: list[n - 1]!.rank })),
@@ -134,7 +133,7 @@ function candidateTools(scene: Scene, store: Store): HTMLElement[] {
       ['probability', probability(current.probability)],
       ['evidence', `${figure(current.evidence, 3)} nats`],
       ['fit error', figure(current.fit_error, 3)],
-      ['working sets', current.working_sets.map((i) => scene.document.working_sets?.[i]).map((set) => (set ? `${set.type} (${count(set.size)})` : '–')).join(', ')],
+      ['working sets', current.working_sets.map((i) => scene.document.working_sets[i]).map((set) => (set ? `${set.type} (${count(set.size)})` : '–')).join(', ')],
     ]),
     h('label', { class: 'check' }, h('input', { type: 'checkbox', 'data-key': 'candidates:others', checked: state.allCandidates, onchange: () => store.set({ allCandidates: !state.allCandidates }) }), 'draw the others thin'),
   );
@@ -143,10 +142,10 @@ function candidateTools(scene: Scene, store: Store): HTMLElement[] {
 
 function foundTools(scene: Scene, store: Store): HTMLElement[] {
   const { state } = store, missing = scene.features.filter(({ feature }) => !feature.present);
-  if (state.labelling > 0)
+  if (state.labeling > 0)
     return [
-      h('p', { class: 'notice' }, `Alternative ${state.labelling}, not the best labelling.`),
-      h('button', { class: 'link', 'data-key': 'found:best', onclick: () => store.set({ labelling: 0 }) }, 'Back to the best'),
+      h('p', { class: 'notice' }, `Alternative ${state.labeling}, not the best labelling.`),
+      h('button', { class: 'link', 'data-key': 'found:best', onclick: () => store.set({ labeling: 0 }) }, 'Back to the best'),
     ];
   return [
     h('p', {}, 'The labelling that explains the mesh best: shapes drawn, their surface in the same colour. Click a face, a name or a row.'),
@@ -158,8 +157,8 @@ export function stageDetail(scene: Scene, store: Store, marking: Marking): HTMLE
   const { stage } = store.state;
   const tools = {
     mesh: () => meshTools(scene),
-    sets: () => setTools(scene, store),
-    constructed: () => candidateTools(scene, store),
+    worksets: () => setTools(scene, store),
+    candidates: () => candidateTools(scene, store),
     found: () => foundTools(scene, store),
     marks: () => markingTools(scene, store, marking),
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From the state to what the window shows: colours of the surface, shapes, dots, names.
-import type { Point, Candidate, Drawing } from '../data/scene';
+import type { Candidate, Drawing, Point, Points } from '@schemas/scene';
 import { floats } from '../data/buffers';
 import type { NamedFeature, Scene } from '../data/decoded';
 import type { Marking } from '../data/marking';
@@ -32,7 +32,7 @@ const SHAPE_COLORS: Record<string, string> = { circle: '#d55e00', plane: '#0072b
 /** The candidates of all features, each fit once. */
 export function distinctShapes(scene: Scene): { candidate: Candidate; color: string }[] {
   const seen = new Set<string>();
-  return (scene.document.candidates ?? []).flatMap((candidate) => {
+  return scene.document.candidates.flatMap((candidate) => {
     const key = JSON.stringify([candidate.shape, candidate.working_sets]);
     if (seen.has(key)) return [];
     seen.add(key);
@@ -41,17 +41,17 @@ export function distinctShapes(scene: Scene): { candidate: Candidate; color: str
 }
 
 /** The shapes of a labelling. */
-export function labelled(scene: Scene, labelling: number): Shown[] {
-  const candidates = candidatesOf(scene, labelling);
+export function labeled(scene: Scene, labeling: number): Shown[] {
+  const candidates = candidatesOf(scene, labeling);
   return scene.features.flatMap((feature) => {
-    const drawing = labelling === 0 ? feature.drawing : candidates.get(feature.name)?.drawing;
+    const drawing = labeling === 0 ? feature.drawing : candidates.get(feature.name)?.drawing;
     return drawing ? [{ feature, drawing, doubtful: false }] : [];
   });
 }
 
 /** Coordinates of a drawing's lines, or of its patches where it has none. */
 export function anchorsOf(drawing: Drawing): Float32Array {
-  const buffers = drawing.lines?.length ? drawing.lines : (drawing.patches ?? []).map((each) => each.positions);
+  const buffers = drawing.lines.length > 0 ? drawing.lines : drawing.patches.map((each) => each.positions);
   const points: number[] = [];
   for (const buffer of buffers) for (const x of floats(buffer, 'drawing')) points.push(x);
   return Float32Array.from(points);
@@ -84,10 +84,10 @@ class Composer {
 
   /** Found shapes, strong where they are chosen. */
   found(): void {
-    const shown = labelled(this.scene, this.state.stage === 'found' ? this.state.labelling : 0);
+    const shown = labeled(this.scene, this.state.stage === 'found' ? this.state.labeling : 0);
     for (const feature of this.scene.features) {
       const nearest = this.chosen.has(feature.name) ? nearestCandidate(this.scene, feature) : null;
-      if (nearest && this.state.labelling === 0) shown.push({ feature, drawing: nearest.drawing, doubtful: true });
+      if (nearest && this.state.labeling === 0) shown.push({ feature, drawing: nearest.drawing, doubtful: true });
     }
     for (const { feature, drawing, doubtful } of shown) {
       const faint = this.chosen.size > 0 && !this.chosen.has(feature.name);
@@ -105,7 +105,7 @@ class Composer {
 
   chosenShapes(): void {
     if (this.chosen.size === 0) return;
-    for (const { feature, drawing } of labelled(this.scene, 0)) {
+    for (const { feature, drawing } of labeled(this.scene, 0)) {
       if (!this.chosen.has(feature.name)) continue;
       this.draw(drawing, { color: feature.color, width: 3, halo: this.palette.halo, fill: 0.12, hidden: this.pale(feature, 0.45) });
       this.label(feature, drawing);
@@ -115,7 +115,7 @@ class Composer {
   /** All candidates by shape, each fit once however many features share it. */
   allCandidates(): void {
     for (const { candidate, color } of distinctShapes(this.scene))
-      this.draw({ lines: candidate.drawing.lines ?? [] }, { color, width: 1.6, hidden: css(mixed(this.palette.surface, rgb(color), 0.25)) });
+      this.draw({ lines: candidate.drawing.lines, patches: [] }, { color, width: 1.6, hidden: css(mixed(this.palette.surface, rgb(color), 0.25)) });
   }
 
   candidates(): void {
@@ -124,7 +124,7 @@ class Composer {
     if (!feature) return this.allCandidates();
     const candidates = this.scene.candidates(feature.name), current = candidates.find((each) => each.rank === rank);
     for (const each of allCandidates ? candidates : [])
-      if (each !== current) this.draw({ lines: each.drawing.lines ?? [] }, { color: this.pale(feature, 0.6), width: 1.4, hidden: this.pale(feature, 0.2) });
+      if (each !== current) this.draw({ lines: each.drawing.lines, patches: [] }, { color: this.pale(feature, 0.6), width: 1.4, hidden: this.pale(feature, 0.2) });
     if (!current) return;
     this.draw(current.drawing, { color: feature.color, width: 5, halo: this.palette.halo, fill: 0.25, hidden: this.pale(feature, 0.7) });
     this.label(feature, current.drawing, `${feature.name}, no. ${current.rank}`);
@@ -155,12 +155,12 @@ class Composer {
       const v = surface.triangles[3 * this.state.face + k]!;
       line.push(surface.positions[3 * v]!, surface.positions[3 * v + 1]!, surface.positions[3 * v + 2]!);
     }
-    this.viewer.drawings.add(drawn({ lines: [encode(line)] }, { color: this.palette.strong, width: 2.2, halo: this.palette.halo }));
+    this.viewer.drawings.add(drawn({ lines: [encode(line)], patches: [] }, { color: this.palette.strong, width: 2.2, halo: this.palette.halo }));
   }
 }
 
 /** Points as a drawing holds them. */
-function encode(values: number[]): { type: 'f32'; count: number; data: string } {
+function encode(values: number[]): Points {
   const bytes = new Uint8Array(Float32Array.from(values).buffer);
   return { type: 'f32', count: values.length, data: btoa(String.fromCharCode(...bytes)) };
 }
@@ -174,7 +174,7 @@ export function compose(viewer: Viewer, scene: Scene, state: State, marking: Mar
   viewer.clearDrawings();
   const composer = new Composer(viewer, scene, state);
   if (state.stage === 'found') composer.found();
-  else if (state.stage === 'constructed') composer.candidates();
+  else if (state.stage === 'candidates') composer.candidates();
   else if (state.stage === 'marks') composer.marks(marking);
   else composer.chosenShapes();
   composer.face();

@@ -4,8 +4,8 @@ import { BufferAttribute, BufferGeometry, Color, DoubleSide, GreaterDepth, Group
 import { Line2 } from 'three/addons/lines/Line2.js';
 import { LineGeometry } from 'three/addons/lines/LineGeometry.js';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
+import type { Drawing, Point } from '@schemas/scene';
 import { floats, indices } from '../data/buffers';
-import type { Drawing, Point } from '../data/scene';
 
 export interface Style {
   color: string;
@@ -74,9 +74,9 @@ function patch(positions: Float32Array, triangles: Uint32Array, style: Style): M
 
 export function drawn(drawing: Drawing, style: Style): Group {
   const group = new Group();
-  for (const each of drawing.patches ?? [])
+  for (const each of drawing.patches)
     group.add(patch(floats(each.positions, 'patch'), indices(each.triangles, 'patch triangles'), style));
-  for (const line of drawing.lines ?? []) {
+  for (const line of drawing.lines) {
     const points = floats(line, 'line');
     if (points.length >= 6) group.add(...polyline(points, style));
   }

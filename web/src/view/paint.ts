@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The colour of each triangle in each stage.
+import type { Candidate } from '@schemas/scene';
 import type { Scene, SurfaceData } from '../data/decoded';
-import type { Candidate } from '../data/scene';
 import type { State } from '../state';
 
 export type Rgb = [number, number, number];
@@ -49,8 +49,8 @@ class Paint {
 }
 
 /** The candidates of a labelling, by feature; 0 is the best, as far as it is written. */
-export function candidatesOf(scene: Scene, labelling: number): Map<string, Candidate> {
-  const ranks = labelling === 0 ? null : (scene.result.alternatives[labelling - 1]?.candidates ?? {});
+export function candidatesOf(scene: Scene, labeling: number): Map<string, Candidate> {
+  const ranks = labeling === 0 ? null : (scene.result.alternatives[labeling - 1]?.candidates ?? {});
   const pairs = scene.features.map(({ name, candidate }) => [name, ranks ? scene.candidate(name, ranks[name] ?? 0) : candidate] as const);
   return new Map(pairs.filter((pair): pair is readonly [string, Candidate] => pair[1] !== null));
 }
@@ -63,7 +63,7 @@ function isRefined(scene: Scene): boolean {
 
 /** Which surface a stage shows. */
 export function surfaceOf(scene: Scene, state: State): SurfaceData {
-  if (state.stage === 'found') return state.labelling > 0 || isRefined(scene) ? scene.analysed : scene.input;
+  if (state.stage === 'found') return state.labeling > 0 || isRefined(scene) ? scene.analysed : scene.input;
   return state.stage === 'marks' ? scene.input : scene.analysed;
 }
 
@@ -72,21 +72,21 @@ export function paint(scene: Scene, state: State, base: Rgb): Uint8Array {
   const surface = surfaceOf(scene, state), canvas = new Paint(surface, base);
   const chosen = new Set(chosenFeatures(scene, state));
   const strength = (name: string): number => (chosen.size === 0 ? 0.72 : chosen.has(name) ? 0.92 : 0.16);
-  if (state.stage === 'sets') {
-    const set = state.set === null ? null : scene.document.working_sets?.[state.set];
-    if (set) canvas.set(scene.set(state.set!), rgb(scene.setColors.get(set.type)!));
+  if (state.stage === 'worksets') {
+    const set = state.set === null ? null : scene.document.working_sets[state.set];
+    if (set) canvas.set(scene.set(state.set!), rgb(scene.setColor(set.type)));
     else canvas.partition(scene.setTypes.map((type) => ({
         vertices: state.hiddenTypes.has(type) ? new Uint32Array() : scene.union(type),
-        color: mixed(base, rgb(scene.setColors.get(type)!), 0.8),
+        color: mixed(base, rgb(scene.setColor(type)), 0.8),
       })));
-  } else if (state.stage === 'constructed') {
+  } else if (state.stage === 'candidates') {
     const candidate = state.candidateOf === null ? null : scene.candidate(state.candidateOf, state.rank);
     for (const index of candidate?.working_sets ?? []) {
-      const type = scene.document.working_sets?.[index]?.type ?? '';
-      canvas.set(scene.set(index), mixed(base, rgb(scene.setColors.get(type) ?? '#888888'), 0.72));
+      const { type } = scene.document.working_sets[index]!;
+      canvas.set(scene.set(index), mixed(base, rgb(scene.setColor(type)), 0.72));
     }
-  } else if (state.stage === 'found' && (surface !== scene.input || state.labelling > 0)) {
-    for (const [name, { working_sets }] of candidatesOf(scene, state.labelling))
+  } else if (state.stage === 'found' && (surface !== scene.input || state.labeling > 0)) {
+    for (const [name, { working_sets }] of candidatesOf(scene, state.labeling))
       for (const index of working_sets) canvas.set(scene.set(index), mixed(base, rgb(scene.feature(name)!.color), strength(name)));
   } else if (surface === scene.input && (state.stage === 'found' || chosen.size > 0)) {
     const soft = state.stage === 'found' ? 1 : 0.35;

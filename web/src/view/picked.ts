@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a click on the surface means in each stage.
+import type { Point } from '@schemas/scene';
 import { count, plural } from '../data/numbers';
-import type { Point } from '../data/scene';
 import type { Scene } from '../data/decoded';
 import type { Marking } from '../data/marking';
 import type { State } from '../state';
@@ -10,7 +10,7 @@ import type { Picked } from './viewer';
 
 /** Written sets that hold a vertex, the smallest first. */
 export function setsAt(scene: Scene, vertex: number): number[] {
-  const sets = scene.document.working_sets ?? [];
+  const sets = scene.document.working_sets;
   return sets.map((_set, i) => i).filter((i) => scene.set(i).includes(vertex)).sort((a, b) => sets[a]!.size - sets[b]!.size);
 }
 
@@ -26,7 +26,7 @@ function featureAt(scene: Scene, state: State, picked: Picked): string | null {
     return label > 0 ? (scene.features[label - 1]?.name ?? null) : null;
   }
   const sets = new Set(setsAt(scene, picked.vertex));
-  for (const [name, { working_sets }] of candidatesOf(scene, state.stage === 'found' ? state.labelling : 0))
+  for (const [name, { working_sets }] of candidatesOf(scene, state.stage === 'found' ? state.labeling : 0))
     if (working_sets.some((set) => sets.has(set))) return name;
   return null;
 }
@@ -67,8 +67,8 @@ export function pickMark(scene: Scene, state: State, marking: Marking, picked: P
 
 export function hoverText(scene: Scene, state: State, picked: Picked): string {
   const { faces, vertexIds, labels } = scene.input;
-  if (state.stage === 'sets') {
-    const types = setsAt(scene, picked.vertex).map((i) => scene.document.working_sets![i]!.type);
+  if (state.stage === 'worksets') {
+    const types = setsAt(scene, picked.vertex).map((i) => scene.document.working_sets[i]!.type);
     return types.length === 0 ? '' : [...new Set(types)].map((type) => `${plural(types.filter((each) => each === type).length, `${type} set`)}`).join(', ');
   }
   if (state.stage === 'marks') return state.markOf ? `mark vertex ${count(vertexIds ? vertexIds[picked.vertex]! : picked.vertex)}` : 'choose a feature to mark';

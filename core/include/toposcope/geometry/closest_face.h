@@ -13,7 +13,7 @@ namespace toposcope {
 /// The point of triangle abc that is closest to x, by its barycentric coordinates; degenerate triangles are segments
 /// or points.
 struct TrianglePoint {
-  Vec3 point = Vec3::Zero();
+  Vec3 point = Vec3::Zero();                  ///< on the triangle
   std::array<double, 3> weights = {1, 0, 0};  ///< of a, b, c; 0 exactly on the side or corner opposite
 };
 TrianglePoint closest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& x);
@@ -22,12 +22,14 @@ TrianglePoint closest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c, c
 /// is made from must outlive it.
 class ClosestFace {
  public:
+  /// Builds the tree. \pre indices of the triangles are of the positions
   ClosestFace(std::span<const Vec3> positions, std::span<const Triangle> triangles);
 
+  /// What is nearest to a point.
   struct Hit {
-    Index face = no_index;
-    Vec3 point = Vec3::Zero();
-    double squared_distance = 0;
+    Index face = no_index;        ///< of the triangles, from 0
+    Vec3 point = Vec3::Zero();    ///< the nearest point of that face
+    double squared_distance = 0;  ///< square of the mesh unit
   };
   /// Of faces equally near the one of least index. \pre at least one triangle
   Hit operator()(const Vec3& x) const;

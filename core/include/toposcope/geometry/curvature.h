@@ -11,8 +11,8 @@ namespace toposcope {
 
 /// Principal curvatures per vertex, 1 / mesh unit; convex is positive (the surface bends away from its normal).
 struct Curvature {
-  std::vector<double> maximum;
-  std::vector<double> minimum;
+  std::vector<double> maximum;  ///< the larger, by vertex
+  std::vector<double> minimum;  ///< the smaller, by vertex
 };
 
 /// \name The estimate for any mesh
@@ -24,24 +24,25 @@ struct Curvature {
 /// The second fundamental form at a vertex in the tangent frame of its normal (tangent_frame):
 /// [mean + deviator_x, deviator_y; deviator_y, mean - deviator_x], 1 / mesh unit.
 struct ShapeOperator {
-  double mean = 0;                        ///< mean curvature
-  double deviator_x = 0, deviator_y = 0;  ///< of length (maximum - minimum) / 2
+  double mean = 0;        ///< mean curvature
+  double deviator_x = 0;  ///< with deviator_y a vector of length (maximum - minimum) / 2
+  double deviator_y = 0;  ///< see deviator_x
 };
 
+/// The shape operators of a mesh.
 struct ShapeOperators {
-  std::vector<Vec3> normals;  ///< unit; zero at a vertex without faces
-  std::vector<ShapeOperator> at;
+  std::vector<Vec3> normals;      ///< unit; zero at a vertex without faces
+  std::vector<ShapeOperator> at;  ///< by vertex
 };
 
-/// Unit vectors that make a right-handed frame with a unit normal; a function of the normal alone
-/// (Duff et al., Building an orthonormal basis, revisited, JCGT 2017).
+/// Unit vectors that make a right-handed frame with a unit normal; a function of the normal alone [Duff2017].
 struct TangentFrame {
-  Vec3 u, v;
+  Vec3 u;  ///< square to the normal
+  Vec3 v;  ///< the normal times u
 };
 TangentFrame tangent_frame(const Vec3& normal);
 
-/// Unit vertex normals, exact on spheres (Max, Weights for computing vertex normals from facet normals, JGT 1999); zero
-/// at a vertex without faces.
+/// Unit vertex normals, exact on spheres [Max1999]; zero at a vertex without faces.
 std::vector<Vec3> vertex_normals(const MeshView& mesh, Context& context);
 
 /// Least-squares quadric (with constant and linear terms) around each vertex over the vertices that a walk along edges
@@ -60,7 +61,8 @@ int diffusion_passes(const MeshView& mesh, double deviation, int least);
 
 /// Eigenvalues of an operator.
 struct PrincipalCurvatures {
-  double maximum, minimum;
+  double maximum;  ///< 1 / mesh unit
+  double minimum;  ///< 1 / mesh unit
 };
 inline PrincipalCurvatures principal_curvatures(const ShapeOperator& at) {
   const double half = std::sqrt(at.deviator_x * at.deviator_x + at.deviator_y * at.deviator_y);
@@ -72,8 +74,7 @@ Curvature principal_curvatures(const ShapeOperators& operators);
 /// along edges reaches within `reach` mean edges, weighted by area and by 1 - (distance / radius)^2, so that nothing
 /// hangs on which vertices lie just within. Against the normal where the surface is convex: radius / (6 R) on a sphere
 /// of radius R; 16 / (15 pi) = 0.34 at the edge of a thin sheet, which has no curvature to speak of and no one normal;
-/// 0.24 at a right-angled edge (Clarenz, Rumpf and Telea, Robust feature detection and local classification for
-/// surfaces based on moment analysis, TVCG 2004).
+/// 0.24 at a right-angled edge [Clarenz2004].
 std::vector<Vec3> first_moments(const MeshView& mesh, double reach, Context& context);
 
 /// \}
@@ -85,7 +86,7 @@ std::vector<Vec3> first_moments(const MeshView& mesh, double reach, Context& con
 std::vector<Vec3> plane_fit_normals(const MeshView& mesh, Context& context);
 
 /// The extreme turnings of the normal from each vertex p to the vertices q within `rings` edges:
-/// |n_p - n_q| / |p - q|, positive where (n_p - n_q) . (p - q) >= 0 (Itter and Jain, dissertation 4.2; the sign: the
+/// |n_p - n_q| / |p - q|, positive where (n_p - n_q) . (p - q) >= 0 ([Itter1985], dissertation 4.2; the sign: the
 /// dissertation's own test depends on the unit of length).
 /// Overestimates on coarse, irregular or noisy meshes: an extreme over many pairs takes the worst of their errors.
 Curvature turning_curvature(const MeshView& mesh, const std::vector<Vec3>& normals, int rings, Context& context);
@@ -100,7 +101,7 @@ int rings_within(const MeshView& mesh, double radius);
 
 /// Mean curvature integrated over the surface that each vertex stands for, length; convex is positive. A quarter of
 /// length times dihedral angle of each edge at the vertex: half of what the edge has, which its ends share
-/// (Cohen-Steiner and Morvan, Restricted Delaunay triangulations and normal cycle, SoCG 2003). Edges without two faces
+/// [CohenSteiner2003]. Edges without two faces
 /// that run along them in opposite directions have none.
 std::vector<double> mean_curvature_measure(const MeshView& mesh);
 

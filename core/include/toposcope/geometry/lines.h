@@ -16,8 +16,8 @@ double line_angle(const Vec3& u, const Vec3& v);
 
 /// Closest point of segment pq to x, and its parameter in [0, 1].
 struct SegmentPoint {
-  Vec3 point;
-  double t = 0;
+  Vec3 point;    ///< on the segment
+  double t = 0;  ///< 0 at p, 1 at q
 };
 SegmentPoint closest_on_segment(const Vec3& p, const Vec3& q, const Vec3& x);
 

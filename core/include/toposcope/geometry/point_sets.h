@@ -11,7 +11,7 @@ namespace toposcope {
 
 /// Principal axes of a point set about its centroid.
 struct PrincipalAxes {
-  Vec3 centroid = Vec3::Zero();
+  Vec3 centroid = Vec3::Zero();                                              ///< mean of the points
   std::array<Vec3, 3> axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};  ///< orthonormal, right-handed
   std::array<double, 3> variance = {0, 0, 0};  ///< mean squared deviation along each axis, descending
 };

@@ -6,9 +6,12 @@
 // search, the robust refinement and the account of what is explained are the same for all.
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "toposcope/shapes.h"
@@ -25,13 +28,16 @@ struct Revolution {
 /// Signed distance of a point from the profile, and its derivatives. The point is given by its distance from the axis
 /// (radius) and its position along it (height over the origin).
 struct ProfileDistance {
-  double value = 0, by_radius = 0, by_height = 0;
-  std::array<double, 2> by_profile = {0, 0};
+  double value = 0;                           ///< length, negative on the inside
+  double by_radius = 0;                       ///< derivative by the distance from the axis
+  double by_height = 0;                       ///< derivative by the height
+  std::array<double, 2> by_profile = {0, 0};  ///< derivatives by the numbers of the profile
 };
 
 /// A point with the normal of the plane through its neighbours; the normal's sign means nothing.
 struct OrientedPoint {
-  Vec3 point, normal;
+  Vec3 point;   ///< mesh unit
+  Vec3 normal;  ///< unit length
 };
 
 /// What of a surface may move in a fit.
@@ -40,21 +46,24 @@ struct Freedom {
   int tilts = 0;                 ///< of the axis: 2, or 0 where it means nothing
   int profile = 0;               ///< numbers of the profile, 1 or 2
   bool second_is_angle = false;  ///< the second number of the profile is in rad, the others are lengths
+  /// Parameters that a fit has.
   int count() const { return shifts + tilts + profile; }
 };
 
 /// What the points that belong to a surface say of it.
 struct RevolutionAccount {
-  Freedom freedom{};
+  Freedom freedom{};               ///< of the kind of surface
   std::array<Vec3, 3> frame;       ///< two directions across the axis, which turn with the points, and the axis
   std::vector<double> covariance;  ///< row-major, of shifts (along the frame), tilts (rad, along the frame), profile
-  double low = 0, high = 0;        ///< least and greatest height over the origin
+  double low = 0;                  ///< least height over the origin
+  double high = 0;                 ///< greatest height over the origin
   double turn = 0;                 ///< part of the turn about the axis that has points, 0 to 1
   double area = 0;                 ///< that has points
   double samples = 1;              ///< independent ones: one per square of a mean edge, as many as there are points
   double position_variance = 0;    ///< mean square distance of the points from their mean, along the axis
   double reach = 0;                ///< points within it belong to the surface, mesh unit
 
+  /// Of one parameter, by its place in the covariance.
   double variance(int parameter) const {
     return covariance[static_cast<std::size_t>(parameter) * static_cast<std::size_t>(freedom.count() + 1)];
   }
@@ -70,15 +79,18 @@ struct RevolutionAccount {
 class RevolutionKind {
  public:
   virtual ~RevolutionKind() = default;
+  /// As messages call it: "sphere".
   virtual const char* name() const = 0;
+  /// What a fit may move.
   virtual Freedom freedom() const = 0;
+  /// Of the point at that distance from the axis and that height over the origin.
   virtual ProfileDistance distance(double radius, double height, const std::array<double, 2>& profile) const = 0;
   /// So few oriented points that most such samples hold no outlier, enough for `through`.
   virtual std::size_t start_points() const = 0;
   /// A surface near the points, which are at least `start_points`; exact where they lie on one with exact normals.
   virtual std::optional<Revolution> through(std::span<const OrientedPoint> points) const = 0;
-  /// A surface near the points about a given axis. \param ring  about the axis, near the points; its height is their
-  /// mean
+  /// A surface near the points about a given axis. `ring` lies about the axis, near the points; its height is their
+  /// mean.
   virtual std::optional<Revolution> about(const Revolution& ring, std::span<const Vec3> points) const = 0;
   /// The same surface with its axis and profile as `report` wants them.
   virtual Revolution settled(const Revolution& surface) const { return surface; }
@@ -88,10 +100,26 @@ class RevolutionKind {
                              FittedShape& shape) const = 0;
 };
 
-/// Fits a surface of a kind: random and regular starts ranked by a quantile of the distances, the best refined by least
-/// Geman-McClure distances (Levenberg-Marquardt); then the account of it.
-/// \param scale  mesh unit; points within two of it belong to the surface
-FittedShape fit_revolution(const RevolutionKind& kind, const FitInput& input, double scale);
+/// A plugin of a kind of surface but for the distance to a shape. Random and regular starts are ranked by a quantile of
+/// the distances, the best refined by least Geman-McClure distances (Levenberg-Marquardt); then the account of it.
+class RevolutionFitter : public ShapeFitter {
+ public:
+  /// \param options  of a table with `scale_option`
+  RevolutionFitter(std::unique_ptr<const RevolutionKind> kind, const Options& options)
+      : kind_(std::move(kind)), scale_(options.real("scale")) {}
+  FittedShape fit(const FitInput& input, const Options& arguments, Context& context) const override;
+  /// Of `coverage`, `area`, `length`, and of radii by any name.
+  Interval bounds(std::string_view measure, std::span<const Box> sets, const Options& arguments) const override;
+
+ private:
+  std::unique_ptr<const RevolutionKind> kind_;
+  double scale_;  // mean edges
+};
+
+/// The row of `scale` in the option table of such a plugin.
+constexpr OptionSpec scale_option(const char* meaning) {
+  return {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", meaning};
+}
 
 /// Radii above so many diagonals of bb(w) are those of something flat (or of a straight tube).
 inline constexpr double flat_diagonals = 10;
@@ -103,13 +131,16 @@ inline constexpr double most_uncertain = 1.0 / 3;
 
 /// Distance from the axis, and height over the origin.
 struct AxisPosition {
-  double radius = 0, height = 0;
+  double radius = 0;  ///< distance from the axis
+  double height = 0;  ///< along the axis
 };
 AxisPosition position(const Revolution& surface, const Vec3& point);
 
 /// Least squares circle |x - c| = r in the plane, by (|x|^2) = 2 c.x + k; no circle for points on a line.
 struct PlaneCircle {
-  double x = 0, y = 0, radius = 0;
+  double x = 0;       ///< of the centre
+  double y = 0;       ///< of the centre
+  double radius = 0;  ///< at least 0
 };
 std::optional<PlaneCircle> plane_circle(std::span<const std::array<double, 2>> points);
 
@@ -118,6 +149,7 @@ class OutlinePath {
  public:
   /// From center + x cos(from) + y sin(from) to the same of `to`.
   void arc(const Vec3& center, const Vec3& x, const Vec3& y, double from, double to);
+  /// The straight line from one to the other.
   void line(const Vec3& from, const Vec3& to);
   /// Points at most `step` apart, but no more than 512.
   std::vector<Vec3> points(double step) const;

@@ -13,6 +13,7 @@ class TurnCoverage {
   /// A point stands for an edge length of arc about itself. \param angle  rad, -pi to pi  \param turn  as above, at the
   /// point
   void add(double angle, double turn);
+  /// 0 to 1.
   double part() const;
 
  private:

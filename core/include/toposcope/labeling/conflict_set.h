@@ -8,18 +8,20 @@
 #include <utility>
 #include <vector>
 
-#include "toposcope/labeling/crisp_network.h"
+#include "toposcope/labeling/tools.h"
 
 namespace toposcope {
 
 /// Which labellings are asked for. By default those where nothing is missing.
 struct ConflictQuestion {
-  bool missing_allowed = false;
+  bool missing_allowed = false;   ///< *missing* is a value like others
   std::vector<Index> fixed = {};  ///< per variable: the value that it has, or `no_candidate`; empty: none is fixed
   Index about = no_candidate;     ///< only the constraints and exclusions of this variable count; else all
 };
 
+/// Constraints and exclusions that cannot be met together.
 struct ConflictSet {
+  /// What is known of the set.
   enum class Status : std::uint8_t {
     none,      ///< all can be met
     smallest,  ///< no smaller set conflicts
@@ -27,18 +29,20 @@ struct ConflictSet {
     reduced,   ///< conflicts; out of time before it was minimal
     unknown    ///< out of time before it was known whether there is a conflict
   };
-  Status status = Status::unknown;
+  Status status = Status::unknown;                       ///< how far it was proven
   std::vector<Index> constraints = {};                   ///< of the problem, ascending
   std::vector<std::pair<Index, Index>> exclusions = {};  ///< of two variables: their candidates share vertices
 
+  /// Whether there is a conflict, as far as is known.
   bool conflicts() const { return status != Status::none && status != Status::unknown; }
+  /// Of constraints and exclusions.
   std::size_t size() const { return constraints.size() + exclusions.size(); }
 };
 
 /// The smallest conflicting set, by implicit hitting sets: a set of items that hits the complement of every set that
-/// can be met is tried; where it can be met, what cannot be added to it is one more complement to hit (Ignatiev,
-/// Previti, Liffiton and Marques-Silva 2015). Values of infinite cost are out beforehand: where no item is needed the
-/// set is empty. A constraint is not blamed for candidates that exclude each other (`allowed_apart`).
+/// can be met is tried; where it can be met, what cannot be added to it is one more complement to hit [Ignatiev2015].
+/// Values of infinite cost are out beforehand: where no item is needed the set is empty. A constraint is not blamed for
+/// candidates that exclude each other (`allowed_apart`).
 ///
 /// \pre `check(problem)`
 ConflictSet smallest_conflict(const LabelingProblem& problem, const ConflictQuestion& question, Deadline& deadline);

@@ -15,7 +15,7 @@ namespace toposcope {
 
 /// The text of a problem file and how its costs stand to the problem's.
 struct WrittenProblem {
-  std::string text;
+  std::string text;   ///< of the file
   int decimals = 0;   ///< .cfn: digits after the point; .wcsp: costs are multiplied by 10 to this power
   bool exact = true;  ///< false: costs are rounded to that
   double shift = 0;   ///< .wcsp: added to a labelling's cost before it is multiplied, so that no cost is negative

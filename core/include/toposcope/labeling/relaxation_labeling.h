@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Relaxation labelling: weighted labels that constraints pull towards each other (Rosenfeld, Hummel and Zucker 1976,
-// Hummel and Zucker 1983). A weight is a degree of assignment, no posterior probability.
+// Relaxation labelling: weighted labels that constraints pull towards each other [Rosenfeld1976], [Hummel1983]. A
+// weight is a degree of assignment, no posterior probability.
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "toposcope/labeling/conditional_costs.h"
+#include "toposcope/labeling/local_search.h"
 
 namespace toposcope {
 
@@ -18,20 +19,27 @@ namespace toposcope {
 /// all variables in one row.
 class Compatibilities {
  public:
-  /// \param saturation  cost at which a compatibility saturates; 0: the largest finite one of any constraint, or of a
-  /// value
-  ///                    above its variable's least
+  /// \param saturation  cost at which a compatibility saturates, nats; 0: the largest finite one of any constraint, or
+  ///                    of a value above its variable's least
   /// \param lasting     what a value costs by itself supports it too: u = -min(cost - least, saturation) / saturation
   /// When the deadline is reached it stops early and is not `complete`.
   Compatibilities(const CostTables& tables, double saturation, bool lasting, Deadline& deadline);
+  ~Compatibilities();
+  Compatibilities(const Compatibilities&) = delete;
+  Compatibilities& operator=(const Compatibilities&) = delete;
 
-  bool complete() const { return complete_; }
-  double saturation() const { return saturation_; }
-  Index variables() const { return static_cast<Index>(offsets_.size() - 1); }
-  std::size_t labels() const { return offsets_.back(); }
-  std::size_t offset(Index v) const { return offsets_[v]; }
+  /// False where the deadline came first.
+  bool complete() const;
+  /// As given or found, nats.
+  double saturation() const;
+  /// How many.
+  Index variables() const;
+  /// How many, of all variables.
+  std::size_t labels() const;
+  /// Of the variable's first label among all; `offset(variables())` is `labels()`.
+  std::size_t offset(Index v) const;
   /// The most constraints, excluding variables and lasting costs that one variable has: no support is beyond +-degree.
-  std::size_t degree() const { return degree_; }
+  std::size_t degree() const;
 
   /// Support of each label, q_i(l) = u_i(l) + sum over i's constraints of the compatibility expected where i has l and
   /// every other variable is distributed as its weights say.
@@ -41,36 +49,8 @@ class Compatibilities {
   std::optional<double> support(std::span<const double> weights, std::span<double> support, Deadline& deadline);
 
  private:
-  struct Place {
-    std::size_t first, count;  ///< labels of a variable
-  };
-  struct Table {
-    std::size_t first_place, places, entry;
-  };
-
-  bool read(const CostTables& tables, Deadline& deadline);
-  bool read_exclusions(const CostTables& tables, Deadline& deadline);
-  double pair(const Table& table, std::span<const double> weights, std::span<double> support) const;
-  double wide(const Table& table, std::span<const double> weights, std::span<double> support);
-  double exclusions(std::span<const double> weights, std::span<double> support);
-
-  bool complete_ = false;
-  double saturation_;
-  std::size_t degree_ = 0;
-  std::vector<std::size_t> offsets_;
-  std::vector<float> own_;      ///< by label: u and constraints over the variable alone
-  std::vector<float> entries_;  ///< compatibilities, table after table, last place fastest
-  std::vector<Place> places_;
-  std::vector<Table> tables_;
-  // Exclusions, by candidate: what is used, and what excludes it; own ones by label do not count.
-  std::vector<Index> candidates_;
-  std::vector<std::size_t> conflict_offsets_, own_conflict_offsets_;
-  std::vector<Index> conflicts_;
-  std::vector<std::uint32_t> own_conflicts_;
-  std::vector<double> used_, excluding_;
-  // Of `wide`.
-  std::vector<std::size_t> digits_;
-  std::vector<double> products_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 /// Euclidean projection of each variable's numbers onto its simplex: weights of at least 0 that sum to 1.
@@ -79,18 +59,21 @@ void project_on_simplexes(const Compatibilities& compatibilities, std::span<doub
 /// Mean over the variables of -sum p log p, nats.
 double mean_entropy(const Compatibilities& compatibilities, std::span<const double> weights);
 
+/// How weights are changed, and when that ends.
 struct RelaxationRules {
   bool projected_gradient = true;  ///< else Rosenfeld, Hummel and Zucker
-  int iterations = 1000;
-  double tolerance = 1e-6;
+  int iterations = 1000;           ///< at most
+  double tolerance = 1e-6;         ///< of weights
 };
 
+/// What became of the weights.
 struct Relaxed {
-  std::vector<double> weights;
-  int iterations = 0;
-  bool converged = false;
-  std::string criterion;                          ///< why it ended
-  double consistency_start = 0, consistency = 0;  ///< A(p)
+  std::vector<double> weights;   ///< per label
+  int iterations = 0;            ///< made
+  bool converged = false;        ///< else stopped, or the limit of iterations
+  std::string criterion;         ///< why it ended
+  double consistency_start = 0;  ///< A(p) at first
+  double consistency = 0;        ///< A(p) at the end
 };
 
 /// Rosenfeld, Hummel and Zucker: p(l) <- p(l) (1 + q(l) / degree), normed; ends where no weight changes by more than

@@ -39,6 +39,11 @@ inline bool satisfied(const LabelingConstraint& constraint, std::size_t entry) {
   return constraint.violations.empty() ? constraint.costs[entry] < forbidden : constraint.violations[entry] <= 1;
 }
 
+/// True where the crisp problem's constraint lets the entry of its tables be: it is satisfied and its cost is finite.
+inline bool allowed(const LabelingConstraint& constraint, std::size_t entry) {
+  return constraint.costs[entry] < forbidden && satisfied(constraint, entry);
+}
+
 /// True where the two values may not both be labelled: their candidates share a vertex.
 bool excluded(const LabelingProblem& problem, Index variable, Index value, Index other, Index other_value);
 
@@ -62,12 +67,15 @@ std::vector<Labeling> all_missing(const LabelingProblem& problem);
 /// on the order of the offers. Offering one twice keeps it once.
 class BestLabelings {
  public:
+  /// Keeps at most `capacity`, none of which costs over `within` nats more than the best.
   BestLabelings(std::size_t capacity, double within) : capacity_(capacity), within_(within) {}
   /// \return true when it entered the list
   bool offer(const Labeling& labeling);
   /// No labelling costlier than this can enter.
   double limit() const;
+  /// Those kept, the best first.
   const std::vector<Labeling>& labelings() const { return labelings_; }
+  /// Hands them over; the list is then empty.
   std::vector<Labeling> take() { return std::move(labelings_); }
 
  private:
@@ -79,12 +87,15 @@ class BestLabelings {
 /// Says when to stop: out of time, or cancelled.
 class Deadline {
  public:
+  /// Time begins to run. The context must outlive it.
   Deadline(double time_limit_s, const Context& context)
       : context_(context), begin_(Clock::now()), limit_s_(time_limit_s) {}
+  /// Out of time or cancelled; stays true.
   bool reached() {
     if (!reached_) reached_ = context_.cancelled() || elapsed_s() >= limit_s_;
     return reached_;
   }
+  /// Seconds since it was made.
   double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
  private:

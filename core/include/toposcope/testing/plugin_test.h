@@ -21,25 +21,30 @@
 
 namespace toposcope::testing {
 
-/// One thread, never cancelled, says nothing.
+/// One thread, never cancelled, says nothing, gives a gibibyte.
 class QuietContext final : public Context {
  public:
+  /// Says nothing.
   void log(LogLevel, std::string_view) override {}
   void progress(double) override {}
   bool cancelled() const override { return false; }
   std::uint64_t seed() const override { return 1; }
   unsigned threads() const override { return 1; }
+  /// One part after the other.
   void parallel_for(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, std::size_t)>& body) override {
     grain = std::max<std::size_t>(grain, 1);
     for (std::size_t first = 0; first < count; first += grain) body(first, std::min(count, first + grain));
   }
+  std::uint64_t memory_budget() const override { return std::uint64_t{1} << 30; }
 };
 
 /// Values of an option table: its defaults, and what is given instead. Keep it while its Options are in use.
 class Values {
  public:
+  /// Values as a user writes them, by name.
   using Given = std::map<std::string, std::string>;
+  /// \throw std::invalid_argument  the table has no such option
   Values(std::span<const OptionSpec> table, Given given) {
     for (const OptionSpec& row : table) {
       const auto found = given.extract(row.name);
@@ -49,6 +54,7 @@ class Values {
     }
     if (!given.empty()) throw std::invalid_argument("the plugin has no option '" + given.begin()->first + "'");
   }
+  /// As a plugin reads them.
   Options options() const { return Options(values_); }
 
  private:
@@ -68,7 +74,9 @@ class Plugin {
     object_.reset(static_cast<Base*>(descriptor_.create(&options_, &error)));
     if (!object_) throw std::runtime_error(library + ": " + error);
   }
+  /// The plugin's object.
   const Base& operator*() const { return *object_; }
+  /// \copydoc operator*
   const Base* operator->() const { return object_.get(); }
   /// What a model gives: the defaults of the plugin's arguments, and others instead.
   Values arguments(Values::Given given = {}) const {
@@ -95,6 +103,7 @@ class Plugin {
 /// A mesh from positions and triangles, with all that a MeshView points to.
 class TestMesh {
  public:
+  /// \pre indices of the triangles are of the positions
   TestMesh(std::vector<Vec3> positions, std::vector<Triangle> triangles)
       : positions_(std::move(positions)), triangles_(std::move(triangles)) {
     std::vector<std::set<Index>> rings(positions_.size()), around(positions_.size());
@@ -117,6 +126,7 @@ class TestMesh {
   }
   TestMesh(const TestMesh&) = delete;
   TestMesh& operator=(const TestMesh&) = delete;
+  /// As plugins see it; lives as long as this.
   const MeshView& view() const { return view_; }
 
  private:
@@ -138,27 +148,31 @@ inline FittedShape fit(const ShapeFitter& fitter, std::span<const Vec3> points, 
 
 /// The working sets that a classifier gives.
 struct FoundSets final : WorkingSetSink {
+  /// One of them.
   struct Set {
-    std::string type;
-    std::vector<Index> vertices;
-    double saliency;
+    std::string type;             ///< of those that the classifier provides
+    std::vector<Index> vertices;  ///< of the mesh, as given
+    double saliency;              ///< 0 to 1
   };
   void add(std::string_view type, std::span<const Index> vertices, double saliency) override {
     sets.push_back({std::string(type), {vertices.begin(), vertices.end()}, saliency});
   }
-  std::vector<Set> sets;
+  std::vector<Set> sets;  ///< in the order in which they came
 };
 
 /// The mesh that a filter makes; untouched where it makes none.
 struct FilteredMesh final : MeshSink {
-  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index> o) override {
+  void set(std::span<const Vec3> p, std::span<const Triangle> t, std::span<const Index> faces,
+           std::span<const Index> vertices) override {
     positions.assign(p.begin(), p.end());
     triangles.assign(t.begin(), t.end());
-    origin.assign(o.begin(), o.end());
+    face_origin.assign(faces.begin(), faces.end());
+    vertex_origin.assign(vertices.begin(), vertices.end());
   }
-  std::vector<Vec3> positions;
-  std::vector<Triangle> triangles;
-  std::vector<Index> origin;
+  std::vector<Vec3> positions;       ///< of the vertices
+  std::vector<Triangle> triangles;   ///< of vertices
+  std::vector<Index> face_origin;    ///< as MeshSink takes it
+  std::vector<Index> vertex_origin;  ///< likewise
 };
 
 inline int failures = 0;  ///< what the test's main returns

@@ -34,6 +34,13 @@ Chunks chunks_of(std::size_t count, std::size_t grain, unsigned threads) {
   return chunks;
 }
 
+TEST(RunContext, MayTakeHalfOfTheMemoryUnlessToldOtherwise) {
+  EXPECT_GT(RunContext().memory_budget(), std::uint64_t{1} << 26);
+  RunSettings settings;
+  settings.memory_budget = 12345;
+  EXPECT_EQ(RunContext(settings).memory_budget(), 12345U);
+}
+
 TEST(RunContext, ChunksAreCutByGrainAlone) {
   const Chunks expected = {{0, 4}, {4, 8}, {8, 10}};
   for (const unsigned threads : {1U, 2U, 3U, 8U}) {

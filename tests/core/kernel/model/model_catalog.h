@@ -49,6 +49,7 @@ class ModelCatalog {
     manifest.min_arity = min_arity;
     manifest.max_arity = max_arity;
     if (kind == PluginKind::relations) manifest.unit = "deg";
+    if (kind == PluginKind::shapes) manifest.dimension = id == "plane" ? 2 : 1;
     manifest.arguments = std::move(arguments);
     manifest.provides = std::move(provides);
     folder_.write(id + ".plugin.json", manifest_to_json(manifest));

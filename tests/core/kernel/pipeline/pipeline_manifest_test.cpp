@@ -23,7 +23,7 @@ class Pipeline : public ::testing::Test {
     add("refine", PluginKind::filters, {{"max_edge", OptionType::real, "diagonals", "0.02", "0", "1", "longest edge"}});
     add("curvature", PluginKind::worksets, {{"rings", OptionType::integer, "", "2", "1", "8", "neighbourhood"}});
     add("circle", PluginKind::shapes,
-        {{"method", OptionType::text, "", "robust", "robust|powell", "", "how to fit"},
+        {{"method", OptionType::text, "", "robust", "", "", "how to fit", "robust|powell"},
          {"restarts", OptionType::integer, "", "3", "0", "", "how often"}});
     add("plane", PluginKind::shapes, {});
     add("parallel", PluginKind::relations, {{"tolerance", OptionType::real, "deg", "10", "0", "90", "largest angle"}});
@@ -35,6 +35,7 @@ class Pipeline : public ::testing::Test {
   void add(const std::string& id, PluginKind kind, const std::vector<OptionRow>& options) const {
     PluginManifest manifest = PluginFolderFixture::manifest(id);
     manifest.kind = kind;
+    if (kind != PluginKind::shapes) manifest.dimension = -1;
     manifest.options = options;
     if (kind == PluginKind::relations) manifest.unit = "deg", manifest.min_arity = manifest.max_arity = 2;
     if (kind == PluginKind::worksets) manifest.provides = {{"convex", 0, "convex points"}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Where the probabilities of a result come from, what is refused of them, and what classes are compared by.
+// Where the probabilities of a result come from.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,40 +9,16 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "base/errors.h"
-#include "pipeline/labeling_problem.h"
 #include "result/classification.h"
 #include "support/program.h"
-#include "toposcope/labeling/tools.h"
 
 namespace toposcope {
 namespace {
 
 using nlohmann::json;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-TEST(ClassEvidence, IsTheEvidenceWhereAllHaveOne) {
-  const auto evidence = comparable_evidence({{3, -10}, {-forbidden, 20}, {1, -30}});
-  EXPECT_EQ(evidence, (std::vector<double>{3, -forbidden, 1}));
-  const auto p = class_probabilities(evidence);
-  const double sum = std::exp(3) + std::exp(1) + 1;
-  ASSERT_EQ(p.size(), 4);
-  EXPECT_NEAR(p[0], std::exp(3) / sum, 1e-15);
-  EXPECT_EQ(p[1], 0);
-  EXPECT_NEAR(p[3], 1 / sum, 1e-15);
-}
-
-TEST(ClassEvidence, IsTheBestLabellingsCostWhereOneHasNone) {
-  EXPECT_EQ(comparable_evidence({{3, -10}, {none, 20}}), (std::vector<double>{10, -20}));
-  EXPECT_EQ(comparable_evidence({{none, forbidden}}), (std::vector<double>{-forbidden}));
-  EXPECT_EQ(class_probabilities({-forbidden}), (std::vector<double>{0, 1}));
-  // Thousands of nats neither overflow nor vanish.
-  EXPECT_EQ(class_probabilities({5000, 4000}), (std::vector<double>{1, 0, 0}));
-}
 
 Result result_of(const std::string& name, double log_evidence, double least_cost) {
   Result result;
@@ -52,7 +28,7 @@ Result result_of(const std::string& name, double log_evidence, double least_cost
   return result;
 }
 
-TEST(ClassEvidence, OfSeveralModels) {
+TEST(Classify, ComparesTheClassesOfSeveralModels) {
   const Classification summed = classify({result_of("a", 5, -4), result_of("b", 4, -9)});
   EXPECT_EQ(summed.class_name, "a");
   EXPECT_NEAR(summed.probabilities[0].second, std::exp(5) / (std::exp(5) + std::exp(4) + 1), 1e-15);
@@ -61,54 +37,6 @@ TEST(ClassEvidence, OfSeveralModels) {
   EXPECT_EQ(costs.class_name, "b");
   EXPECT_NEAR(costs.probabilities[1].second, std::exp(9) / (std::exp(9) + std::exp(4) + 1), 1e-15);
   EXPECT_EQ(classify({result_of("a", none, 3)}).class_name, "");
-}
-
-/// A problem of two variables and an outcome of it that keeps the contract.
-struct Contract : ::testing::Test {
-  Contract() {
-    problem.variables.push_back({.name = "rim", .costs = {1, 2, 3}});
-    problem.variables.push_back({.name = "bottom", .costs = {0, 5}});
-    outcome.labelings = {{{0, 0}, 1}, {{1, 0}, 2}};
-    outcome.lower_bound = 1;
-    outcome.posteriors = {{0.5, 0.25, 0.25}, {1, 0}};
-  }
-  std::string refusal() const {
-    try {
-      check_outcome(problem, outcome, "odd");
-      return "";
-    } catch (const PluginError& error) {
-      return error.what();
-    }
-  }
-  LabelingProblem problem;
-  LabelingOutcome outcome;
-};
-
-TEST_F(Contract, KeptIsNotRefused) {
-  EXPECT_EQ(refusal(), "");
-  outcome.lower_bound = -forbidden;
-  outcome.posteriors.clear();
-  EXPECT_EQ(refusal(), "");
-}
-
-TEST_F(Contract, ABoundAboveACost) {
-  outcome.lower_bound = 1.001;
-  EXPECT_THAT(refusal(), AllOf(HasSubstr("odd"), HasSubstr("1.001"), HasSubstr("1.000")));
-  outcome.lower_bound = 1 + 1e-13;  // rounding
-  EXPECT_EQ(refusal(), "");
-  outcome.lower_bound = none;
-  EXPECT_NE(refusal(), "");
-}
-
-TEST_F(Contract, ProbabilitiesThatAreNone) {
-  outcome.posteriors[0] = {0.5, 0.25, 0.24};
-  EXPECT_THAT(refusal(), AllOf(HasSubstr("'rim'"), HasSubstr("0.99"), HasSubstr("not to 1")));
-  outcome.posteriors[0] = {1.5, -0.25, -0.25};
-  EXPECT_THAT(refusal(), HasSubstr("not from 0 to 1"));
-  outcome.posteriors[0] = {none, 0.5, 0.5};
-  EXPECT_NE(refusal(), "");
-  outcome.posteriors[0] = {0.5, 0.5};
-  EXPECT_THAT(refusal(), HasSubstr("domains"));
 }
 
 struct ProbabilitiesOfARun : ::testing::Test {

@@ -95,7 +95,8 @@ TEST(RealMeshes, RimAndBottomEdgeOfEveryCupAndNoHandleWhereThereIsNone) {
       for (const json& v : group["vertices"]) sum += soup.positions[v.get<Index>()];
       centres.push_back(sum / static_cast<double>(group["vertices"].size()));
     }
-    const Vec3 first(handle.shape.parameters[0].values.data()), last(&handle.shape.parameters[0].values[3]);
+    const std::vector<double>& ends = handle.shape.parameter("endpoints")->values;
+    const Vec3 first(ends.data()), last(&ends[3]);
     const auto worse = [&](const Vec3& a, const Vec3& b) { return std::max((first - a).norm(), (last - b).norm()); };
     EXPECT_LT(std::min(worse(centres[0], centres[1]), worse(centres[1], centres[0])),
               0.05 * cup.truth["frame"]["bbox_diagonal"].get<double>())

@@ -10,6 +10,7 @@
 
 #include "mesh/mesh.h"
 #include "model/read_model.h"
+#include "pipeline/construct_features.h"
 #include "pipeline/pipeline_manifest.h"
 #include "pipeline/second_look.h"
 #include "support/meshes.h"
@@ -31,9 +32,11 @@ struct Rows {
   }
 
   void first_look() {
-    overlap = overlaps(sets, mesh.view().vertex_count());
-    features = construct_features(mesh.view(), model, sets, overlap, stations, context(2));
+    sets = MeasuredWorkingSets(std::move(sets), run());
+    features = construct_features(run(), sets);
   }
+
+  ModelRun run() const { return {mesh.view(), model, stations, context(2)}; }
 
   void add_rows(double first, double last) {
     const double low = mesh.view().positions.front().y();
@@ -62,14 +65,13 @@ struct Rows {
 
   bool look(std::vector<std::optional<Index>> labelled) {
     labelled.resize(model.features.size());
-    return look_again(mesh.view(), model, sets, overlap, labelled, stations, context(2), features);
+    return look_again(run(), sets, labelled, features);
   }
 
   Mesh mesh;
   Model model;
   Stations stations;
-  WorkingSets sets;
-  BitMatrix overlap;
+  MeasuredWorkingSets sets;  ///< measured by the first look
   ConstructedFeatures features;
 };
 

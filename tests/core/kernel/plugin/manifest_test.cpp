@@ -28,9 +28,10 @@ PluginManifest example() {
   manifest.fingerprint = "cxxabi=1";
   manifest.abi_major = 1;
   manifest.min_arity = 1;
+  manifest.dimension = 1;
   manifest.max_arity = 0;
   manifest.options = {{"tolerance", OptionType::real, "deg", "5", "0", "90", "largest angle"},
-                      {"method", OptionType::text, "", "robust", "robust|powell", "", "how to fit"},
+                      {"method", OptionType::text, "", "robust", "", "", "how to fit", "robust|powell"},
                       {"smooth", OptionType::boolean, "", "true", "", "", "whether to smooth"}};
   manifest.arguments = {{"segments", OptionType::integer, "", "", "1", "", "number of segments"}};
   manifest.programs = {"solver", "viewer"};
@@ -43,7 +44,7 @@ TEST(PluginManifest, ReadsBackWhatItWrites) {
   folder.write("line-group.plugin.json", manifest_to_json(example()));
   const PluginManifest read = read_manifest(folder.path / "line-group.plugin.json");
   EXPECT_THAT(differences(read, example()), ::testing::IsEmpty());
-  EXPECT_EQ(read.options[1].minimum, "robust|powell");
+  EXPECT_EQ(read.options[1].choices, "robust|powell");
   EXPECT_EQ(read.library, folder.path / ("line-group" + library_suffix()));
   EXPECT_EQ(manifest_to_json(read), manifest_to_json(example()));
 }
@@ -72,7 +73,9 @@ TEST(PluginManifest, EveryDifferenceIsNamed) {
       {"minimum arity", [](PluginManifest& m) { m.min_arity = 2; }},
       {"maximum arity", [](PluginManifest& m) { m.max_arity = 2; }},
       {"ordered", [](PluginManifest& m) { m.ordered = true; }},
+      {"dimension", [](PluginManifest& m) { m.dimension = 2; }},
       {"options", [](PluginManifest& m) { m.options[0].maximum = "91"; }},
+      {"options", [](PluginManifest& m) { m.options[1].choices = "robust"; }},
       {"options", [](PluginManifest& m) { m.options.pop_back(); }},
       {"arguments", [](PluginManifest& m) { m.arguments[0].type = OptionType::real; }},
       {"provides", [](PluginManifest& m) { m.provides[1].dimension = 2; }},
@@ -163,9 +166,13 @@ TEST(PluginManifest, IncompleteDescriptorsAreRefused) {
   EXPECT_THAT(error_of([](PluginDescriptor& d) { d.option_count = 1; }), HasSubstr("null table"));
   EXPECT_THAT(error_of([](PluginDescriptor& d) { d.provided_count = 1; }), HasSubstr("null table"));
   EXPECT_THAT(error_of([](PluginDescriptor& d) { d.min_arity = 0; }), HasSubstr("arity"));
+  EXPECT_THAT(error_of([](PluginDescriptor& d) { d.dimension = -1; }), HasSubstr("a shape says its own"));
+  EXPECT_THAT(error_of([](PluginDescriptor& d) { d.dimension = 4; }), HasSubstr("dimension 4"));
+  EXPECT_THAT(error_of([](PluginDescriptor& d) { d.kind = "filters"; }), HasSubstr("only shapes"));
   EXPECT_THAT(error_of([](PluginDescriptor& d) { d.version = "one"; }), HasSubstr("version 'one'"));
-  EXPECT_THAT(error_of([](PluginDescriptor& d) { d.kind = "relations", d.min_arity = d.max_arity = 2; }),
-              HasSubstr("unit"));
+  EXPECT_THAT(
+      error_of([](PluginDescriptor& d) { d.kind = "relations", d.min_arity = d.max_arity = 2, d.dimension = -1; }),
+      HasSubstr("unit"));
 }
 
 }  // namespace

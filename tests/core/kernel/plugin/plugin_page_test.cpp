@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 
 PluginManifest plugin() {
   PluginManifest manifest;
-  manifest.options = {{"method", OptionType::text, "", "fast", "fast|slow", "", "a|b"},
+  manifest.options = {{"method", OptionType::text, "", "fast", "", "", "a|b", "fast|slow"},
                       {"scale", OptionType::real, "mean-edges", "1", "0.05", "20", "how far"},
                       {"count", OptionType::integer, "", "", "1", "", "how many"},
                       {"exact", OptionType::boolean, "", "true", "", "", "to the last bit"}};

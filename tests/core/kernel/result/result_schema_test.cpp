@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "support/program.h"
@@ -13,6 +14,33 @@ namespace toposcope::test {
 namespace {
 
 using nlohmann::json;
+
+/// Members of type number that do not say what they are, by their JSON pointers.
+std::string silent_numbers(const json& node, const std::string& place) {
+  std::string found;
+  if (node.is_object() && node.contains("properties"))
+    for (const auto& [name, member] : node["properties"].items())
+      if (member.contains("type") && member["type"].dump().find("\"number\"") != std::string::npos &&
+          !member.contains("description"))
+        found += place + "/properties/" + name + "\n";
+  if (node.is_structured())
+    for (const auto& [name, child] : node.items()) found += silent_numbers(child, place + "/" + name);
+  return found;
+}
+
+TEST(Schemas, NameThemselvesAndSayWhatTheirNumbersAre) {
+  std::size_t count = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(TOPOSCOPE_SOURCE_DIR) / "schemas")) {
+    const json schema = json::parse(read_text(entry.path()));
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(schema["$id"], "https://toposcope.org/schemas/" + name);
+    for (const char* member : {"title", "description"}) EXPECT_TRUE(schema.contains(member)) << name << ": " << member;
+    EXPECT_EQ(silent_numbers(schema, ""), "") << name;
+    ++count;
+  }
+  EXPECT_GE(count, 10U);
+}
 
 TEST(ResultSchema, HoldsForFoundMissingAndClassifiedFeatures) {
   const TemporaryFolder folder;

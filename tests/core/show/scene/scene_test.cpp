@@ -97,10 +97,8 @@ TEST(Scene, MarksAreThoseOfTheTruth) {
   ASSERT_TRUE(cup.scene.has_truth);
   ASSERT_EQ(cup.scene.marks.size(), truth.features.size());
   for (std::size_t f = 0; f < truth.features.size(); ++f) {
-    std::size_t marked = truth.features[f].points.size();
-    for (const TruthGroup& group : truth.features[f].groups) marked += group.points.size();
     EXPECT_EQ(cup.scene.marks[f].first, truth.features[f].name);
-    EXPECT_EQ(cup.scene.marks[f].second.size(), marked);
+    EXPECT_EQ(cup.scene.marks[f].second.size(), truth.features[f].points.size());
   }
   EXPECT_EQ(json::parse(cup.text)["truth"]["class"], "cup");
 }
@@ -143,6 +141,13 @@ TEST(Scene, RefusesWhatIsNone) {
   broken = json::parse(tee.text);
   broken.erase("found");
   EXPECT_NE(test::schema_faults("scene", broken.dump()), "");
+  broken = json::parse(tee.text);
+  broken["result"]["status"] = "perhaps";
+  EXPECT_NE(test::schema_faults("scene", broken.dump()), "");
+  broken = json::parse(tee.text);
+  broken["working_sets"][0].erase("saliency");
+  EXPECT_NE(test::schema_faults("scene", broken.dump()), "");
+  EXPECT_THROW(read_scene(broken.dump(), "x.json"), UsageError);
 }
 
 }  // namespace

@@ -6,11 +6,20 @@
 
 #include "base/errors.h"
 #include "support/program.h"
+#include "support/refusal.h"
 
 namespace toposcope {
 namespace {
 
 using ::testing::HasSubstr;
+
+const MeshFile& file(const DatasetMesh& mesh) {
+  return std::get<MeshFile>(mesh.source);
+}
+
+const MadeMesh& made(const DatasetMesh& mesh) {
+  return std::get<MadeMesh>(mesh.source);
+}
 
 class DatasetFile : public ::testing::Test {
  protected:
@@ -19,12 +28,7 @@ class DatasetFile : public ::testing::Test {
     return read_dataset(folder_ / "set.yaml");
   }
   std::string refusal(const std::string& meshes) {
-    try {
-      read(meshes);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test::refusal([&] { read(meshes); });
   }
   test::TemporaryFolder folder_;
 };
@@ -35,10 +39,10 @@ TEST_F(DatasetFile, FilesByPatternWithTheTruthBesideThem) {
     test::write_text(folder_ / name, "x");
   const Dataset dataset = read("meshes: [{files: cups/*.off, class: mug}]\n");
   ASSERT_EQ(dataset.meshes.size(), 2U);
-  EXPECT_EQ(dataset.meshes[0].file, folder_ / "cups/a.off") << "in the order of their names";
-  EXPECT_EQ(dataset.meshes[0].truth, folder_ / "cups/a.truth.json");
-  EXPECT_EQ(dataset.meshes[0].class_name, "mug");
-  EXPECT_EQ(dataset.meshes[1].truth, "");
+  EXPECT_EQ(file(dataset.meshes[0]).path, folder_ / "cups/a.off") << "in the order of their names";
+  EXPECT_EQ(file(dataset.meshes[0]).truth, folder_ / "cups/a.truth.json");
+  EXPECT_EQ(file(dataset.meshes[0]).class_name, "mug");
+  EXPECT_EQ(file(dataset.meshes[1]).truth, "");
   EXPECT_FALSE(dataset.by_class);
 }
 
@@ -51,7 +55,7 @@ TEST_F(DatasetFile, NamedWithoutItsFolderItFindsFilesBesideItself) {
   EXPECT_NO_THROW(dataset = read_dataset("set.yaml"));
   std::filesystem::current_path(before);
   ASSERT_EQ(dataset.meshes.size(), 1U);
-  EXPECT_EQ(dataset.meshes[0].file.filename(), "a.off");
+  EXPECT_EQ(file(dataset.meshes[0]).path.filename(), "a.off");
 }
 
 TEST_F(DatasetFile, OptionalFilesThatAreAbsentAreTold) {
@@ -72,19 +76,34 @@ TEST_F(DatasetFile, ObjectsForEachKindDrawAndNumberOfFaces) {
   EXPECT_EQ(dataset.meshes[0].name, "tee 7 5K");
   EXPECT_EQ(dataset.meshes[1].name, "tee 7 700");
   EXPECT_EQ(dataset.meshes[2].name, "wye 8 5K") << "kinds take turns, seeds count up";
-  EXPECT_EQ(dataset.meshes[4].kind, "tee");
-  EXPECT_EQ(dataset.meshes[4].seed, 9U);
+  EXPECT_EQ(made(dataset.meshes[4]).object.kind, "tee");
+  EXPECT_EQ(made(dataset.meshes[4]).object.seed, 9U);
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_TRUE(dataset.meshes[i].random && dataset.meshes[i].scan);
-    EXPECT_EQ(dataset.meshes[i].view, 2U);
-    EXPECT_EQ(dataset.meshes[i].noise, 0.01);
+    const MadeMesh& each = made(dataset.meshes[i]);
+    EXPECT_TRUE(each.object.random);
+    EXPECT_EQ(each.object.noise_rel, 0) << "the noise is the scan's";
+    ASSERT_TRUE(each.scan);
+    EXPECT_EQ(each.scan->faces, i % 2 == 0 ? 5000U : 700U);
+    EXPECT_EQ(each.scan->seed, each.object.seed);
+    EXPECT_EQ(each.scan->seen_from, 2U);
+    EXPECT_EQ(each.scan->noise_rel, 0.01);
   }
-  const DatasetMesh& mug = dataset.meshes[6];
-  EXPECT_EQ(mug.object, "mug");
-  EXPECT_EQ(mug.variant, "10K");
-  EXPECT_FALSE(mug.random);
-  EXPECT_FALSE(mug.noise);
-  EXPECT_EQ(mug.parameters, (std::map<std::string, double>{{"handle", 0}, {"wall", 3}}));
+  EXPECT_EQ(dataset.meshes[6].object, "mug");
+  EXPECT_EQ(dataset.meshes[6].variant, "10K");
+  const MadeMesh& mug = made(dataset.meshes[6]);
+  EXPECT_FALSE(mug.object.random);
+  EXPECT_FALSE(mug.scan);
+  EXPECT_EQ(mug.object.parameters, (std::map<std::string, double>{{"handle", 0}, {"wall", 3}}));
+}
+
+TEST_F(DatasetFile, DecimatedObjectsAreMadeFineFirst) {
+  const Dataset dataset = read("meshes: [{kind: tee, faces: [700, 30000], decimated: true, noise: 0.001}]\n");
+  ASSERT_EQ(dataset.meshes.size(), 2U);
+  EXPECT_EQ(made(dataset.meshes[0]).object.faces, 20000U);
+  EXPECT_EQ(made(dataset.meshes[0]).decimate_to, 700U);
+  EXPECT_EQ(dataset.meshes[0].variant, "700");
+  EXPECT_EQ(made(dataset.meshes[1]).object.faces, 30000U);
+  EXPECT_EQ(made(dataset.meshes[1]).object.noise_rel, 0.001);
 }
 
 TEST_F(DatasetFile, RefusalsNameThePlaceAndTheRemedy) {

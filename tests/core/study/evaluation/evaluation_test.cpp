@@ -128,7 +128,7 @@ TEST(Evaluation, AMeshWithoutTruthIsNoSuccess) {
   Dataset dataset;
   dataset.meshes.resize(1);
   dataset.meshes[0].name = "box";
-  dataset.meshes[0].file = folder / "box.ply";
+  dataset.meshes[0].source = MeshFile{folder / "box.ply", {}, {}};
   const Evaluation features =
       evaluate(dataset, cup, make_stations(test::host(), pipeline, cup), test::host(), test::context());
   EXPECT_FALSE(features.right(features.meshes[0]));
@@ -150,17 +150,14 @@ TEST(Evaluation, OfAGeneratedCupAtAnyThreadCount) {
   Dataset dataset;
   dataset.name = "two";
   for (const bool scan : {false, true}) {
-    DatasetMesh mesh;
-    mesh.kind = "cup";
-    mesh.name = mesh.object = scan ? "scan" : "exact";
-    mesh.faces = 4000;
-    mesh.scan = scan;
-    dataset.meshes.push_back(mesh);
+    MadeMesh made{.object = {.kind = "cup", .faces = 4000}};
+    if (scan) made.scan = ScanSettings{.faces = 4000, .parts = false};
+    const std::string name = scan ? "scan" : "exact";
+    dataset.meshes.push_back({.name = name, .object = name, .variant = "", .source = made});
   }
-  DatasetMesh bad = dataset.meshes[0];
-  bad.name = "bad";
-  bad.parameters["wall"] = -1;
-  dataset.meshes.push_back(bad);
+  MadeMesh bad{.object = {.kind = "cup", .faces = 4000}};
+  bad.object.parameters["wall"] = -1;
+  dataset.meshes.push_back({.name = "bad", .object = "exact", .variant = "", .source = bad});
   const auto run = [&](unsigned threads) {
     Evaluation evaluation = evaluate(dataset, model, stations, test::host(), test::context(threads));
     evaluation.seconds = 0;

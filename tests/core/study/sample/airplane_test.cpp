@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/errors.h"
+#include "core/study/sample/sample_fixture.h"
 #include "sample/lifting_surface.h"
 #include "sample/solid.h"
 #include "support/random.h"
@@ -13,17 +14,13 @@
 namespace toposcope {
 namespace {
 
+using test::feature;
+
 ParameterValues parameters(const std::map<std::string, double>& given = {}) {
   return check_parameters(airplane_kind(), given);
 }
 
-const SampleFeature& feature(const Solid& solid, const std::string& name) {
-  for (const SampleFeature& f : solid.features)
-    if (f.name == name) return f;
-  throw std::out_of_range(name);
-}
-
-std::vector<Vec3> endpoints(const SampleFeature& f) {
+std::vector<Vec3> endpoints(const TruthFeature& f) {
   std::vector<Vec3> ends;
   for (const auto& [name, v] : f.parameters)
     if (name == "endpoints")
@@ -110,7 +107,7 @@ TEST(Airplane, EdgesFollowTheirLineGroups) {
   for (const auto& given : {std::map<std::string, double>{}, {{"t_tail", 1}}, {{"engines", 2}, {"engine_drop", 1}}}) {
     const Solid solid = make_airplane(parameters(given));
     ASSERT_EQ(solid.features.size(), 5U);
-    for (const SampleFeature& f : solid.features) {
+    for (const TruthFeature& f : solid.features) {
       SCOPED_TRACE(f.name);
       const std::vector<Vec3> ends = endpoints(f);
       ASSERT_EQ(ends.size(), 4U) << "three segments: leading edge, tip, trailing edge";
@@ -133,8 +130,8 @@ TEST(Airplane, EdgesFollowTheirLineGroups) {
 TEST(Airplane, SidesMirrorEachOtherAndPortIsLeft) {
   const Solid solid = make_airplane(parameters());
   for (const char* name : {"WingE", "HzStabE"}) {
-    const SampleFeature &port = feature(solid, std::string("p") + name),
-                        &other = feature(solid, std::string("s") + name);
+    const TruthFeature &port = feature(solid.features, std::string("p") + name),
+                       &other = feature(solid.features, std::string("s") + name);
     ASSERT_EQ(port.points.size(), other.points.size());
     for (std::size_t i = 0; i < port.points.size(); ++i) {
       EXPECT_GT(port.points[i].y(), 0) << "the nose looks along +x, up is +z";
@@ -146,7 +143,7 @@ TEST(Airplane, SidesMirrorEachOtherAndPortIsLeft) {
     const Vec3 p(random.uniform(-110, 10), random.uniform(-60, 60), random.uniform(-20, 30));
     EXPECT_EQ(solid.surface(p).value, solid.surface(p.cwiseProduct(Vec3(1, -1, 1))).value);
   }
-  for (const Vec3& p : feature(solid, "vStabE").points) EXPECT_EQ(p.y(), 0);
+  for (const Vec3& p : feature(solid.features, "vStabE").points) EXPECT_EQ(p.y(), 0);
 }
 
 TEST(Airplane, HasItsMeasures) {
@@ -154,20 +151,20 @@ TEST(Airplane, HasItsMeasures) {
   EXPECT_NEAR(solid.surface(Vec3(-25, 0, 6)).value, 0, 1e-9) << "top of the fuselage";
   EXPECT_NEAR(solid.surface(Vec3(0, 0, 0)).value, 0, 1e-9) << "nose";
   EXPECT_NEAR(solid.surface(Vec3(-100, 0, 0)).value, 0, 1e-9) << "tail";
-  const std::vector<Vec3> wing = endpoints(feature(solid, "pWingE"));
+  const std::vector<Vec3> wing = endpoints(feature(solid.features, "pWingE"));
   EXPECT_NEAR(wing[1].y(), 50, 1e-9) << "half the span";
   EXPECT_NEAR((wing[1] - wing[2]).norm(), 12, 1e-9) << "the tip's chord";
   EXPECT_NEAR(wing[1].x(), -34 - 50 * std::tan(12 * pi / 180), 1e-9);
   EXPECT_NEAR(wing[1].z(), -3, 1e-9);
   EXPECT_NEAR((wing[0] - wing[1]).normalized().dot(Vec3(std::tan(12 * pi / 180), -1, 0).normalized()), 1, 1e-12);
-  EXPECT_NEAR(endpoints(feature(solid, "vStabE"))[1].z(), 20, 1e-9);
+  EXPECT_NEAR(endpoints(feature(solid.features, "vStabE"))[1].z(), 20, 1e-9);
 }
 
 TEST(Airplane, PartsAreWhereTheyAre) {
   const Solid solid = make_airplane(parameters({{"engines", 2}}));
   ASSERT_EQ(solid.part_names, (std::vector<std::string>{"body", "wing", "stabilizer", "rudder", "engine"}));
   EXPECT_EQ(solid.part_of(Vec3(-25, 0, 6)), 0U);
-  for (const SampleFeature& f : solid.features) {
+  for (const TruthFeature& f : solid.features) {
     const std::size_t expected = f.name.find("Wing") != f.name.npos ? 1 : f.name == "vStabE" ? 3 : 2;
     for (std::size_t i = 5; i + 5 < f.points.size(); ++i) EXPECT_EQ(solid.part_of(f.points[i]), expected) << f.name;
   }

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "base/errors.h"
-#include "base/run_context.h"
+#include "core/study/sample/sample_fixture.h"
 
 namespace toposcope {
 namespace {
@@ -15,13 +15,7 @@ ParameterValues parameters(const std::map<std::string, double>& given) {
   return check_parameters(cup_kind(), given);
 }
 
-/// \param made  a solid or a sample
-template <class Made>
-const SampleFeature& feature(const Made& made, const std::string& name) {
-  for (const SampleFeature& f : made.features)
-    if (f.name == name) return f;
-  throw std::out_of_range(name);
-}
+using test::feature;
 
 TEST(CupSide, PassesThroughItsEndsAndIsSmooth) {
   for (const double bulge : {-4.0, 0.0, 6.0}) {
@@ -59,11 +53,11 @@ TEST(Cup, FootRingStandsAndItsBottomIsRecessed) {
   EXPECT_NEAR(solid.surface(Vec3(0, 0, 3)).value, 0, 1e-12);
   EXPECT_NEAR(solid.surface(Vec3(0, 0, 8)).value, 0, 1e-12) << "the bottom keeps its thickness";
   EXPECT_NEAR(solid.surface(Vec3(31, 0, 0)).value, 0, 1e-12) << "the ring stands on z = 0";
-  for (const Vec3& p : feature(solid, "bottom").points) {
+  for (const Vec3& p : feature(solid.features, "bottom").points) {
     EXPECT_EQ(p.z(), 3);
     EXPECT_LT(p.head<2>().norm(), 35 - 7);
   }
-  EXPECT_LT(feature(solid, "bottomEdge").points.front().z(), 3);
+  EXPECT_LT(feature(solid.features, "bottomEdge").points.front().z(), 3);
 }
 
 TEST(Cup, EveryHandleShapeHasAHoleAndMeetsTheWallTwice) {
@@ -74,9 +68,9 @@ TEST(Cup, EveryHandleShapeHasAHoleAndMeetsTheWallTwice) {
     const Solid solid = make_cup(values);
     EXPECT_GT(handle_gap(cup), 0.4 * 5);
     EXPECT_GT(solid.surface(Vec3(cup.side.radius(50) + 6, 0, 50)).value, 0) << "the hole";
-    const SampleFeature& handle = feature(solid, "handleCon");
+    const TruthFeature& handle = feature(solid.features, "handleCon");
     ASSERT_EQ(handle.groups.size(), 2U);
-    for (const MarkGroup& group : handle.groups)
+    for (const TruthGroup& group : handle.groups)
       for (const Index i : group.members)
         EXPECT_NEAR(handle.points[i].z(), group.name == "upper" ? 77 : 23, 5 + 4 + 1.5);
     for (const Vec3& p : handle.points) EXPECT_NEAR(solid.surface(p).value, 0, 1e-9);
@@ -84,14 +78,14 @@ TEST(Cup, EveryHandleShapeHasAHoleAndMeetsTheWallTwice) {
 }
 
 TEST(Cup, CentroidsOfTheHandlesRingsDoNotHangOnTheMesh) {
-  RunContext context({.threads = 2});
-  const Sample coarse = make_sample({.kind = "cup", .faces = 2000}, context);
-  const Sample fine = make_sample({.kind = "cup", .faces = 30000}, context);
-  const SampleFeature &few = feature(coarse, "handleCon"), &many = feature(fine, "handleCon");
+  const Sample coarse = test::make({.kind = "cup", .faces = 2000});
+  const Sample fine = test::make({.kind = "cup", .faces = 30000});
+  const TruthFeature &few = feature(coarse.truth.features, "handleCon"),
+                     &many = feature(fine.truth.features, "handleCon");
   EXPECT_LT(few.points.size(), many.points.size()) << "marks whose vertex is taken are dropped";
   for (std::size_t g = 0; g < 2; ++g) EXPECT_EQ(few.groups[g].centroid, many.groups[g].centroid);
   // The ring is a line: its centroid is the mean along it, not that of points that lie closer on one side.
-  for (const MarkGroup& group : many.groups) {
+  for (const TruthGroup& group : many.groups) {
     Vec3 moment = Vec3::Zero();
     double length = 0;
     for (std::size_t i = 0; i < group.members.size(); ++i) {

@@ -103,7 +103,7 @@ TEST_P(RandomSample, SwitchesAndChoicesKeepTheirShares) {
 }
 
 TEST_P(RandomSample, PageTellsDefaultsAndRanges) {
-  std::ifstream file(std::string(TOPOSCOPE_SOURCE_DIR) + "/docs/sample.md");
+  std::ifstream file(std::string(TOPOSCOPE_SOURCE_DIR) + "/docs/guide/sample.md");
   std::string page((std::istreambuf_iterator<char>(file)), {});
   std::erase_if(page, [](char c) { return c == '`'; });
   for (const OptionRow& row : kind_->parameters) {

@@ -28,7 +28,7 @@ struct Rim {
 
 std::map<std::string, Rim> rims(const Solid& solid) {
   std::map<std::string, Rim> found;
-  for (const SampleFeature& f : solid.features) {
+  for (const TruthFeature& f : solid.features) {
     Rim rim;
     rim.there = !f.points.empty();
     for (const auto& [name, v] : f.parameters) {

@@ -10,52 +10,30 @@
 #include <set>
 
 #include "base/errors.h"
-#include "base/run_context.h"
-#include "mesh/mesh.h"
+#include "core/study/sample/sample_fixture.h"
 #include "sample/isosurface.h"
 #include "sample/solid.h"
-#include "sample/thin.h"
-#include "support/meshes.h"
 #include "support/plugins.h"
 #include "support/program.h"
 #include "toposcope/geometry/closest_face.h"
-#include "toposcope/geometry/point_sets.h"
 
 namespace toposcope {
 namespace {
+
+using test::edges;
+using test::feature;
+using test::value;
+using test::vec;
 
 Sample scanned(const SampleRequest& request, const ScanSettings& settings, unsigned threads = 2) {
   RunContext context({.threads = threads});
   return scan(make_scan_target(request, context), settings, test::host(), context);
 }
 
-double mean_edge(const TriangleSoup& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles)
-    for (std::size_t i = 0; i < 3; ++i) sum += (mesh.positions[t[i]] - mesh.positions[t[(i + 1) % 3]]).norm();
-  return sum / (3 * static_cast<double>(mesh.triangles.size()));
-}
-
-Vec3 vec(const std::vector<double>& v) {
-  return {v.at(0), v.at(1), v.at(2)};
-}
-
 /// Back in the object's own frame.
 Vec3 unposed(const ScanRecord& scan, const Vec3& p) {
   const Vec3 moved = p - scan.translation;
   return moved.x() * scan.rotation[0] + moved.y() * scan.rotation[1] + moved.z() * scan.rotation[2];
-}
-
-const SampleFeature& feature(const Sample& sample, const std::string& name) {
-  for (const SampleFeature& f : sample.features)
-    if (f.name == name) return f;
-  throw std::out_of_range(name);
-}
-
-const std::vector<double>& value(const SampleFeature& f, const std::string& name) {
-  for (const auto& [key, v] : f.parameters)
-    if (key == name) return v;
-  throw std::out_of_range(name);
 }
 
 struct Case {
@@ -82,13 +60,13 @@ TEST_P(ScannedObject, IsClosedWithItsFeaturesInTheirPlaces) {
   EXPECT_FALSE(made.scan->partial);
 
   // The surface is where it was, but for hollows that no view sees into.
-  const double edge = mean_edge(made.mesh);
+  const double edge = edges(made.mesh).mean;
   double off = 0;
   for (const Vec3& p : made.mesh.positions) off += std::abs(solid.surface(unposed(*made.scan, p)).value);
   EXPECT_LT(off / static_cast<double>(made.mesh.positions.size()), 0.05 * edge);
 
   const ClosestFace surface(made.mesh.positions, made.mesh.triangles);
-  for (const SampleFeature& f : made.features) {
+  for (const TruthFeature& f : made.truth.features) {
     SCOPED_TRACE(f.name);
     ASSERT_EQ(f.points.size(), f.vertices.size());
     double distance = 0;
@@ -164,21 +142,21 @@ TEST(Scan, SeenFromOneSideIsOpenAndTellsOnlyWhatIsThere) {
     EXPECT_FALSE(is_closed_manifold(part.mesh));
     EXPECT_LT(part.mesh.triangles.size(), 0.75 * 10000);
     EXPECT_GT(part.mesh.triangles.size(), 500U);
-    EXPECT_NEAR(mean_edge(part.mesh), mean_edge(whole.mesh), 0.1 * mean_edge(whole.mesh));
+    EXPECT_NEAR(edges(part.mesh).mean, edges(whole.mesh).mean, 0.1 * edges(whole.mesh).mean);
     const Solid solid = make_solid("cup", part.parameters);
     for (const Vec3& p : part.mesh.positions)
       EXPECT_LT(std::abs(solid.surface(unposed(*part.scan, p)).value), 1.5 * part.scan->spacing)
           << "nothing that closes the surface is left";
     const ClosestFace surface(part.mesh.positions, part.mesh.triangles);
-    for (const SampleFeature& f : part.features) {
+    for (const TruthFeature& f : part.truth.features) {
       (f.points.empty() ? dropped : kept).insert(f.name);
-      const auto all = static_cast<double>(feature(whole, f.name).points.size());
+      const auto all = static_cast<double>(feature(whole.truth.features, f.name).points.size());
       if (!f.points.empty()) {
         // Points whose vertex is shared are left out, so that few less than the share may be listed.
         EXPECT_GE(static_cast<double>(f.points.size()), 0.8 * least_share * all) << f.name;
       }
       for (const Vec3& p : f.points) EXPECT_LE(std::sqrt(surface(p).squared_distance), 3 * part.scan->spacing);
-      for (const MarkGroup& group : f.groups) EXPECT_FALSE(group.members.empty());
+      for (const TruthGroup& group : f.groups) EXPECT_FALSE(group.members.empty());
     }
   }
   EXPECT_FALSE(dropped.empty());
@@ -192,7 +170,8 @@ TEST(Scan, WithoutPartsTheRestIsTheSame) {
   EXPECT_TRUE(without.part_names.empty());
   EXPECT_EQ(with.mesh.positions, without.mesh.positions);
   EXPECT_EQ(with.mesh.triangles, without.mesh.triangles);
-  for (std::size_t f = 0; f < with.features.size(); ++f) EXPECT_EQ(with.features[f].points, without.features[f].points);
+  for (std::size_t f = 0; f < with.truth.features.size(); ++f)
+    EXPECT_EQ(with.truth.features[f].points, without.truth.features[f].points);
 }
 
 TEST(Scan, ErrorsNameValueAndRemedy) {
@@ -210,85 +189,6 @@ TEST(Scan, ErrorsNameValueAndRemedy) {
   EXPECT_NE(message({.seen_from = 2000}).find("2000 viewpoints: it must be at most 1000"), std::string::npos);
   EXPECT_NE(message({.noise_rel = -1}).find("noise is -1 box diagonals"), std::string::npos);
   EXPECT_NE(message({.noise_rel = NAN}).find("it must lie between 0 and 0.02"), std::string::npos);
-  EXPECT_THROW(make_scan_target({.kind = "teapot"}, context), UsageError);
-  EXPECT_THROW(make_scan_target({.kind = "cup", .faces = 10}, context), UsageError);
-}
-
-TEST(ScanTarget, LiesOnTheExactSurfaceAndIsWatertight) {
-  RunContext context({.threads = 2});
-  for (const char* kind : {"cup", "tee", "airplane"}) {
-    const Sample target = make_scan_target({.kind = kind}, context);
-    const Solid solid = make_solid(kind, target.parameters);
-    const double diagonal = (solid.high - solid.low).norm();
-    std::map<std::pair<Index, Index>, int> balance;
-    for (const Triangle& t : target.mesh.triangles)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Index a = t[i], b = t[(i + 1) % 3];
-        balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
-      }
-    for (const auto& [edge, sum] : balance) EXPECT_EQ(sum, 0) << kind;
-    double off = 0;
-    for (const Triangle& t : target.mesh.triangles) {
-      const auto& p = target.mesh.positions;
-      EXPECT_LT(std::abs(solid.surface(p[t[0]]).value), 1e-6 * diagonal);
-      off += std::abs(solid.surface((p[t[0]] + p[t[1]] + p[t[2]]) / 3).value);
-    }
-    EXPECT_LT(off / static_cast<double>(target.mesh.triangles.size()), 0.0002 * diagonal) << kind;
-  }
-}
-
-/// Three wyes of which a net of cells of 0.03 diagonals loses a rim.
-TEST(ScanTarget, PassesThroughThePointsOfItsFeatures) {
-  RunContext context;
-  for (const std::uint64_t seed : {15, 90, 780}) {
-    const Sample target = make_scan_target({.kind = "wye", .faces = 10000, .seed = seed, .random = true}, context);
-    const ClosestFace surface(target.mesh.positions, target.mesh.triangles);
-    const Box box = oriented_box(target.mesh.positions);
-    for (const SampleFeature& f : target.features) {
-      double farthest = 0;
-      for (const Vec3& p : f.points) farthest = std::max(farthest, surface(p).squared_distance);
-      EXPECT_LT(std::sqrt(farthest), 0.002 * box.diagonal()) << f.name << " of seed " << seed;
-    }
-  }
-}
-
-TEST(Thin, KeepsTopologyBorderAndShape) {
-  struct Sink final : MeshSink {
-    TriangleSoup mesh;
-    void set(std::span<const Vec3> positions, std::span<const Triangle> triangles,
-             std::span<const Index> origin) override {
-      mesh.positions.assign(positions.begin(), positions.end());
-      mesh.triangles.assign(triangles.begin(), triangles.end());
-      mesh.face_origin.assign(origin.begin(), origin.end());
-    }
-  };
-  RunContext context({.threads = 1});
-  const auto thinned = [&](TriangleSoup soup, Index faces) {
-    soup.input_faces = static_cast<Index>(soup.triangles.size());
-    soup.face_origin.clear();
-    for (Index f = 0; f < soup.input_faces; ++f) soup.face_origin.push_back(f);
-    const Mesh mesh(std::move(soup), "test");
-    Sink sink;
-    Thin(faces).apply(mesh.view(), context, sink);
-    return sink.mesh;
-  };
-  const TriangleSoup torus = thinned(test::make_torus(1, 0.4, 120, 60), 4000);
-  EXPECT_TRUE(is_closed_manifold(torus));
-  EXPECT_EQ(torus.positions.size() * 2, torus.triangles.size()) << "genus 1";
-  EXPECT_NEAR(static_cast<double>(torus.triangles.size()), 4000, 2);
-  for (const Triangle& t : torus.triangles) {
-    const Vec3 center = (torus.positions[t[0]] + torus.positions[t[1]] + torus.positions[t[2]]) / 3;
-    const double ring = std::hypot(center.x(), center.y()) - 1;
-    EXPECT_NEAR(std::hypot(ring, center.z()), 0.4, 0.02);
-  }
-  // A plate keeps every vertex of its border.
-  const TriangleSoup plate = thinned(test::make_grid(30, 30, 3, 3), 900);
-  EXPECT_LE(plate.triangles.size(), 900U);
-  std::size_t border = 0;
-  for (const Vec3& p : plate.positions) border += std::max(std::abs(p.x()), std::abs(p.y())) > 1.5 - 1e-9 ? 1 : 0;
-  EXPECT_EQ(border, 120U);
-  // Nothing to do: the sink is not called.
-  EXPECT_TRUE(thinned(test::make_sphere(2), 400).triangles.empty());
 }
 
 TEST(SampleCommand, ScansAndWritesHowInTheTruth) {

@@ -15,8 +15,6 @@ namespace {
 class Judging : public ::testing::Test {
  protected:
   Judging() {
-    stations_.shapes["circle"] = test::shape("circle");
-    stations_.shapes["line-group"] = test::shape("line-group");
     result_.mean_edge = 0.1;
     result_.box.sides = {3, 4, 12};  // diagonal 13
     analysis_.classes.resize(1);
@@ -26,6 +24,7 @@ class Judging : public ::testing::Test {
     ModelFeature& feature = model_.features.emplace_back();
     feature.name = name;
     feature.shape.plugin = shape;
+    stations_.features.push_back({test::shape(shape), {}});
     analysis_.classes[0].features.push_back(static_cast<Index>(model_.features.size() - 1));
     FeatureReport& report = result_.features.emplace_back();
     report.name = name;
@@ -53,6 +52,20 @@ class Judging : public ::testing::Test {
     return points;
   }
 
+  static TruthFeature marked(const std::string& name, const std::vector<Vec3>& points) {
+    TruthFeature feature;
+    feature.name = name;
+    feature.points = points;
+    return feature;
+  }
+
+  /// Rings of a single mark around either end.
+  static TruthFeature ended(const std::string& name, const Vec3& a, const Vec3& b) {
+    TruthFeature feature = marked(name, {a, b});
+    feature.groups = {{"", {0}, a}, {"", {1}, b}};
+    return feature;
+  }
+
   FeatureJudgement only(const TruthFeature& feature) {
     Truth truth;
     truth.features = {feature};
@@ -67,32 +80,32 @@ class Judging : public ::testing::Test {
 
 TEST_F(Judging, ACircleWithinTwoMeanEdgesOfItsMarks) {
   add_circle("rim", 1, 5);
-  FeatureJudgement judged = only({"rim", ring(1, 5.19), {}, {}});
+  FeatureJudgement judged = only(marked("rim", ring(1, 5.19)));
   EXPECT_NEAR(judged.distance, 0.19, 1e-9);
   EXPECT_NEAR(judged.excess, 0.95, 1e-9);
   EXPECT_EQ(judged.verdict, Verdict::right);
   EXPECT_EQ(judged.probability, 0.75);
-  EXPECT_EQ(only({"rim", ring(1, 5.21), {}, {}}).verdict, Verdict::wrong);
-  EXPECT_EQ(only({"rim", {}, {}, {}}).verdict, Verdict::spurious);
+  EXPECT_EQ(only(marked("rim", ring(1, 5.21))).verdict, Verdict::wrong);
+  EXPECT_EQ(only(marked("rim", {})).verdict, Verdict::spurious);
 }
 
 TEST_F(Judging, ACircleAnywhereInItsBand) {
   add_circle("rim", 1.2, 5);
-  const TruthBand band{{0, 0, 5}, Vec3::UnitZ(), 1, 1.5};
-  EXPECT_EQ(only({"rim", ring(1.5, 5), {}, {}}).verdict, Verdict::wrong);
-  EXPECT_NEAR(only({"rim", ring(1.5, 5), {}, band}).distance, 0, 1e-9);
+  TruthFeature in_band = marked("rim", ring(1.5, 5));
+  in_band.parameters = {{"center", {0, 0, 5}}, {"normal", {0, 0, 1}}, {"band", {1.5, 1}}};
+  EXPECT_EQ(only(marked("rim", ring(1.5, 5))).verdict, Verdict::wrong);
+  EXPECT_NEAR(only(in_band).distance, 0, 1e-9);
   result_.features[0].shape.parameters[2].values = {1.7};
-  EXPECT_NEAR(only({"rim", ring(1.5, 5), {}, band}).distance, 0.2, 1e-9) << "beyond the band its edge counts";
+  EXPECT_NEAR(only(in_band).distance, 0.2, 1e-9) << "beyond the band its edge counts";
 }
 
 TEST_F(Judging, EndsNearTheirGroupsInEitherOrder) {
   add_segment("handleCon", {0, 0, 0}, {0, 0, 4});
-  const auto group = [](const Vec3& at) { return TruthGroup{"", {at}, at}; };
-  FeatureJudgement judged = only({"handleCon", {}, {group({0, 0, 4.6}), group({0, 0.3, 0})}, {}});
+  FeatureJudgement judged = only(ended("handleCon", {0, 0, 4.6}, {0, 0.3, 0}));
   EXPECT_NEAR(judged.distance, 0.6, 1e-9) << "the farther end";
   EXPECT_NEAR(judged.excess, 0.6 / (0.05 * 13), 1e-9);
   EXPECT_EQ(judged.verdict, Verdict::right);
-  EXPECT_EQ(only({"handleCon", {}, {group({0, 0, 4.7}), group({0, 0, 0})}, {}}).verdict, Verdict::wrong);
+  EXPECT_EQ(only(ended("handleCon", {0, 0, 4.7}, {0, 0, 0})).verdict, Verdict::wrong);
 }
 
 TEST_F(Judging, ALineGroupMustCoverItsMarksAndNothingElse) {
@@ -100,8 +113,8 @@ TEST_F(Judging, ALineGroupMustCoverItsMarksAndNothingElse) {
   std::vector<Vec3> all, half;
   for (int i = 0; i <= 20; ++i) (i <= 10 ? half : all).emplace_back(0, 0, 0.2 * i);
   all.insert(all.end(), half.begin(), half.end());
-  EXPECT_EQ(only({"edge", all, {}, {}}).verdict, Verdict::right);
-  const FeatureJudgement judged = only({"edge", half, {}, {}});
+  EXPECT_EQ(only(marked("edge", all)).verdict, Verdict::right);
+  const FeatureJudgement judged = only(marked("edge", half));
   EXPECT_NEAR(judged.distance, 0, 1e-12) << "all marks are on it";
   EXPECT_NEAR(judged.excess * 0.03 * 13, 11.0 / 21, 1e-9)
       << "but it goes on to where none are: 0.2 (1 + ... + 10) / 21";
@@ -110,8 +123,8 @@ TEST_F(Judging, ALineGroupMustCoverItsMarksAndNothingElse) {
 
 TEST_F(Judging, MissingFeatures) {
   add_feature("rim", "circle", false);
-  EXPECT_EQ(only({"rim", {}, {}, {}}).verdict, Verdict::absent);
-  EXPECT_EQ(only({"rim", ring(1, 5), {}, {}}).verdict, Verdict::missed);
+  EXPECT_EQ(only(marked("rim", {})).verdict, Verdict::absent);
+  EXPECT_EQ(only(marked("rim", ring(1, 5))).verdict, Verdict::missed);
 }
 
 TEST_F(Judging, NamesThatTheModelCannotTellApartChangePlacesTogether) {
@@ -120,16 +133,14 @@ TEST_F(Judging, NamesThatTheModelCannotTellApartChangePlacesTogether) {
   add_circle("left2", 1, 1);
   add_circle("right2", 1, 6);
   Truth truth;
-  truth.features = {{"left1", ring(1, 5), {}, {}},
-                    {"right1", ring(1, 0), {}, {}},
-                    {"left2", ring(1, 6), {}, {}},
-                    {"right2", ring(1, 1), {}, {}}};
+  truth.features = {marked("left1", ring(1, 5)), marked("right1", ring(1, 0)), marked("left2", ring(1, 6)),
+                    marked("right2", ring(1, 1))};
   const auto relate = [&](Index a, Index b, const char* plugin) {
     Relationship& relationship = model_.relationships.emplace_back();
     relationship.plugin = plugin;
     relationship.features = {a, b};
     analysis_.classes[0].relationships.push_back(static_cast<Index>(model_.relationships.size() - 1));
-    stations_.relation_ordered.push_back(false);
+    stations_.relationships.emplace_back();
   };
   relate(0, 1, "reflective-symmetry");
   relate(2, 3, "concentric");

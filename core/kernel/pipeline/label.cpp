@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/label.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "pipeline/solve.h"
+#include "pipeline/stopwatch.h"
+#include "probability/symmetry.h"
+#include "toposcope/labeling/restricted.h"
+#include "toposcope/labeling/tools.h"
+
+namespace toposcope {
+namespace {
+
+/// Values of each variable that stay: those nearer to the variable's own label than to the labels of the features
+/// that it could be exchanged with. So an airplane's port wing has one side, and not half a probability on each.
+std::vector<std::vector<Index>> one_side(const ClassOutcome& solved, const std::vector<std::vector<Index>>& orbits,
+                                         const ConstructedFeatures& features) {
+  const std::vector<Index>& best = solved.outcome.labelings.front().values;
+  const auto centroid_of = [&](Index variable, Index value) -> const Vec3& {
+    return features.all[solved.problem.variables[variable].candidates[value - 1]].shape.centroid;
+  };
+  std::vector<std::vector<Index>> kept(best.size());
+  for (Index v = 0; v < best.size(); ++v)
+    for (Index value = 0; value < solved.problem.variables[v].domain(); ++value) {
+      bool own = true;
+      if (value > 0 && best[v] > 0)
+        for (Index w = 0; w < best.size(); ++w) {
+          if (w == v || best[w] == 0 || !std::binary_search(orbits[v].begin(), orbits[v].end(), w)) continue;
+          const Vec3& at = centroid_of(v, value);
+          own = own && (at - centroid_of(v, best[v])).squaredNorm() <= (at - centroid_of(w, best[w])).squaredNorm();
+        }
+      if (own) kept[v].push_back(value);
+    }
+  return kept;
+}
+
+struct SolveTimes {
+  double label_ms = 0, marginals_ms = 0;
+};
+
+/// Solves a class's problem for its labellings and, where the pipeline says so, again for its probabilities.
+SolveTimes solve_class(ClassOutcome& posed, const ModelRun& run, const LabelingRequest& request) {
+  const Stations& stations = run.stations;
+  SolveTimes times;
+  Stopwatch watch;
+  LabelingOutcome& outcome = posed.outcome = solve(stations.labeler, posed.problem, request, run.context);
+  std::string made = stations.labeler.id + ": " + outcome.guarantee;
+  times.label_ms = watch.lap_ms();
+  if (stations.marginals) {
+    LabelingRequest sums = request;
+    sums.k_best = 1;
+    LabelingOutcome marginals = solve(*stations.marginals, posed.problem, sums, run.context);
+    take_sums(marginals, outcome);
+    made = stations.marginals->id + ": " + marginals.guarantee;
+    times.marginals_ms = watch.lap_ms();
+  }
+  // Why there are none is worth a line where they were asked for.
+  const bool any = !outcome.posteriors.empty() || !std::isnan(outcome.log_evidence);
+  posed.probabilities = any || stations.marginals ? made : "";
+  return times;
+}
+
+}  // namespace
+
+ClassOutcome label_class(ClassOutcome posed, const ConstructedFeatures& features, const ModelRun& run,
+                         const LabelingRequest& request) {
+  const SolveTimes times = solve_class(posed, run, request);
+  posed.label_ms = times.label_ms;
+  posed.marginals_ms = times.marginals_ms;
+  posed.nodes = posed.outcome.nodes;
+  posed.lower_bound = posed.outcome.lower_bound;
+  posed.least_cost = forbidden;
+  for (const Labeling& labeling : posed.outcome.labelings) posed.least_cost = std::min(posed.least_cost, labeling.cost);
+  const auto names = renamings_of(posed, run.model, run.stations);
+  // What differs in names that mean the same is one explanation, not several.
+  posed.log_evidence = posed.outcome.log_evidence - std::log(static_cast<double>(names.size()));
+  const auto kept = one_side(posed, orbits_of(names), features);
+  bool changed = false;
+  for (Index v = 0; v < kept.size(); ++v) changed = changed || kept[v].size() < posed.problem.variables[v].domain();
+  if (changed) {
+    posed.problem = restricted(posed.problem, kept);
+    solve_class(posed, run, request);
+  }
+  const Labeling& best = posed.answer = posed.outcome.labelings.front();
+  posed.complete = std::all_of(best.values.begin(), best.values.end(), [](Index value) { return value > 0; });
+  for (const LabelingConstraint& constraint : posed.problem.constraints)
+    posed.complete = posed.complete && satisfied(constraint, table_entry(posed.problem, constraint, best.values));
+  return posed;
+}
+
+std::vector<std::optional<Index>> first_labeling(const LabelingProblem& problem, const ModelRun& run) {
+  std::vector<std::optional<Index>> labelled(run.model.features.size());
+  double least = std::numeric_limits<double>::infinity();
+  for (const ClassOutcome& posed : pose_classes(problem, run.model, run.stations.probability)) {
+    const Labeling best = solve(run.stations.labeler, posed.problem, {}, run.context).labelings.front();
+    if (!(best.cost < least)) continue;
+    least = best.cost;
+    std::fill(labelled.begin(), labelled.end(), std::nullopt);
+    for (Index v = 0; v < best.values.size(); ++v)
+      if (best.values[v] > 0) labelled[posed.features[v]] = posed.problem.variables[v].candidates[best.values[v] - 1];
+  }
+  return labelled;
+}
+
+}  // namespace toposcope

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "factors.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "toposcope/geometry/large_array.h"
+
+namespace toposcope::posterior {
+namespace {
+
+/// Makes a problem's factor graph. Large tables are read in place where nothing is to be changed in them.
+class GraphBuilder {
+ public:
+  GraphBuilder(const LabelingProblem& problem, Watch& watch) : problem_(problem), watch_(watch) {}
+
+  FactorGraph build() {
+    graph_.constant = problem_.constant;
+    graph_.values.resize(problem_.variables.size());
+    for (Index v = 0; v < problem_.variables.size(); ++v)
+      for (Index value = 0; value < problem_.variables[v].domain(); ++value)
+        if (problem_.variables[v].costs[value] < forbidden) graph_.values[v].push_back(value);
+    strike_unsupported();
+    for (Index v = 0; v < problem_.variables.size(); ++v) {
+      graph_.impossible = graph_.impossible || graph_.values[v].empty();
+      graph_.unary.emplace_back();
+      for (const Index value : graph_.values[v]) graph_.unary[v].push_back(problem_.variables[v].costs[value]);
+    }
+    if (graph_.impossible) return std::move(graph_);
+    for (const LabelingConstraint& constraint : problem_.constraints) add(constraint);
+    add_exclusions();
+    // A factor without information binds nothing.
+    std::erase_if(graph_.factors, [](const Factor& factor) {
+      return std::all_of(factor.costs.begin(), factor.costs.end(), [](double cost) { return cost == 0; });
+    });
+    return std::move(graph_);
+  }
+
+ private:
+  const std::vector<Index>& values(const LabelingConstraint& constraint, std::size_t k) const {
+    return graph_.values[constraint.scope[k]];
+  }
+
+  std::vector<std::size_t> strides(const LabelingConstraint& constraint) const {
+    std::vector<std::size_t> stride(constraint.scope.size(), 1);
+    for (std::size_t k = stride.size(); k-- > 1;)
+      stride[k - 1] = stride[k] * problem_.variables[constraint.scope[k]].domain();
+    return stride;
+  }
+
+  /// True where the constraint has an entry of finite cost with the value at place k of its scope.
+  bool supported(const LabelingConstraint& constraint, const std::vector<std::size_t>& stride, std::size_t k,
+                 Index value) {
+    digits_.assign(stride.size(), 0);
+    for (;;) {
+      std::size_t entry = value * stride[k];
+      for (std::size_t j = 0; j < stride.size(); ++j)
+        if (j != k) entry += stride[j] * values(constraint, j)[digits_[j]];
+      if (constraint.costs[entry] < forbidden) return true;
+      watch_.poll(stride.size());
+      std::size_t j = stride.size();
+      while (j-- > 0) {
+        if (j == k) continue;
+        if (++digits_[j] < values(constraint, j).size()) break;
+        digits_[j] = 0;
+      }
+      if (j == static_cast<std::size_t>(-1)) return false;
+    }
+  }
+
+  /// Strikes the values that no entry of finite cost of some constraint has (generalised arc consistency).
+  void strike_unsupported() {
+    std::vector<bool> due(problem_.constraints.size(), true);
+    for (bool removed = true; removed;) {
+      removed = false;
+      for (Index c = 0; c < problem_.constraints.size(); ++c) {
+        if (!due[c]) continue;
+        due[c] = false;
+        const LabelingConstraint& constraint = problem_.constraints[c];
+        const std::vector<std::size_t> stride = strides(constraint);
+        for (std::size_t k = 0; k < stride.size(); ++k) {
+          for (const Index v : constraint.scope)
+            if (graph_.values[v].empty()) return;
+          std::vector<Index>& left = graph_.values[constraint.scope[k]];
+          const std::size_t before = left.size();
+          std::erase_if(left, [&](Index value) { return !supported(constraint, stride, k, value); });
+          if (left.size() == before) continue;
+          removed = true;
+          for (Index other = 0; other < problem_.constraints.size(); ++other) {
+            const auto& scope = problem_.constraints[other].scope;
+            if (std::find(scope.begin(), scope.end(), constraint.scope[k]) != scope.end()) due[other] = true;
+          }
+        }
+      }
+    }
+  }
+
+  void add(const LabelingConstraint& constraint) {
+    const std::size_t arity = constraint.scope.size();
+    if (arity == 1) {
+      const Index v = constraint.scope[0];
+      for (std::size_t i = 0; i < graph_.domain(v); ++i) graph_.unary[v][i] += constraint.costs[graph_.values[v][i]];
+      return;
+    }
+    if (std::all_of(constraint.scope.begin(), constraint.scope.end(),
+                    [&](Index v) { return graph_.domain(v) == problem_.variables[v].domain(); })) {
+      graph_.factors.push_back({constraint.scope, constraint.costs});
+      return;
+    }
+    Factor factor{constraint.scope, {}};
+    const std::vector<std::size_t> stride = strides(constraint);
+    const std::vector<Index>& last = values(constraint, arity - 1);
+    std::size_t rows = 1;
+    for (std::size_t k = 0; k + 1 < arity; ++k) rows *= values(constraint, k).size();
+    digits_.assign(arity, 0);
+    for (; rows > 0; --rows) {
+      std::size_t row = 0;
+      for (std::size_t k = 0; k + 1 < arity; ++k) row += stride[k] * values(constraint, k)[digits_[k]];
+      for (const Index value : last) factor.own.push_back(constraint.costs[row + value]);
+      watch_.poll(2 * last.size());
+      for (std::size_t k = arity - 1; k-- > 0;) {
+        if (++digits_[k] < values(constraint, k).size()) break;
+        digits_[k] = 0;
+      }
+    }
+    factor.costs = factor.own;
+    graph_.factors.push_back(std::move(factor));
+  }
+
+  /// Tables where none forbids already what the exclusions do: those of meshes do.
+  void add_exclusions() {
+    const std::size_t tables = graph_.factors.size();
+    for (Index v = 0; v < graph_.variables(); ++v)
+      for (Index w = v + 1; w < graph_.variables(); ++w) {
+        if (problem_.variables[v].candidates.empty() || problem_.variables[w].candidates.empty()) continue;
+        std::vector<const Factor*> same, turned;
+        const std::vector<Index> pair{v, w}, reversed{w, v};
+        for (std::size_t f = 0; f < tables; ++f) {
+          if (graph_.factors[f].scope == pair) same.push_back(&graph_.factors[f]);
+          if (graph_.factors[f].scope == reversed) turned.push_back(&graph_.factors[f]);
+        }
+        const std::size_t height = graph_.domain(v), width = graph_.domain(w);
+        const auto forbids = [](std::size_t entry) {
+          return [entry](const Factor* factor) { return !(factor->costs[entry] < forbidden); };
+        };
+        Factor exclusion{{v, w}, {}};
+        for (std::size_t i = 0; i < height; ++i) {
+          for (std::size_t j = 0; j < width; ++j) {
+            if (!excluded(problem_, v, graph_.values[v][i], w, graph_.values[w][j]) ||
+                std::any_of(same.begin(), same.end(), forbids(i * width + j)) ||
+                std::any_of(turned.begin(), turned.end(), forbids(j * height + i)))
+              continue;
+            if (exclusion.own.empty()) exclusion.own.assign(height * width, 0.0);
+            exclusion.own[i * width + j] = forbidden;
+          }
+          watch_.poll(4 * width + tables / (i + 1));
+        }
+        if (exclusion.own.empty()) continue;
+        exclusion.costs = exclusion.own;
+        graph_.factors.push_back(std::move(exclusion));
+      }
+  }
+
+  const LabelingProblem& problem_;
+  Watch& watch_;
+  FactorGraph graph_;
+  std::vector<std::size_t> digits_;
+};
+
+}  // namespace
+
+void add_reordered(const FactorGraph& graph, const Factor& factor, const std::vector<Index>& scope,
+                   std::vector<double>& table, Watch& watch) {
+  const bool first = table.empty();
+  if (first) reserve_large(table, factor.costs.size());
+  if (first && scope == factor.scope) {
+    table.assign(factor.costs.begin(), factor.costs.end());
+    watch.poll(table.size());
+    return;
+  }
+  if (first) table.resize(factor.costs.size(), 0.0);
+  const std::size_t arity = scope.size(), width = graph.domain(factor.scope.back());
+  std::vector<std::size_t> stride(arity), digits(arity, 0);  // in `table`, of the factor's k-th variable
+  for (std::size_t k = 0; k < arity; ++k) {
+    stride[k] = 1;
+    for (std::size_t j = arity; scope[--j] != factor.scope[k];) stride[k] *= graph.domain(scope[j]);
+  }
+  std::size_t at = 0;
+  for (std::size_t entry = 0; entry < factor.costs.size(); entry += width) {
+    for (std::size_t i = 0; i < width; ++i) table[at + i * stride.back()] += factor.costs[entry + i];
+    watch.poll(2 * width);
+    for (std::size_t k = arity - 1; k-- > 0;) {
+      at += stride[k];
+      if (++digits[k] < graph.domain(factor.scope[k])) break;
+      at -= stride[k] * digits[k];
+      digits[k] = 0;
+    }
+  }
+}
+
+FactorGraph merged(const FactorGraph& graph, Watch& watch) {
+  FactorGraph made{graph.values, graph.unary, {}, graph.constant, graph.impossible};
+  for (const Factor& factor : graph.factors) {
+    const auto same = std::find_if(made.factors.begin(), made.factors.end(), [&](const Factor& other) {
+      return std::is_permutation(other.scope.begin(), other.scope.end(), factor.scope.begin(), factor.scope.end());
+    });
+    if (same == made.factors.end()) {
+      made.factors.push_back({factor.scope, factor.costs});
+      continue;
+    }
+    if (same->own.empty()) same->own.assign(same->costs.begin(), same->costs.end());
+    add_reordered(graph, factor, same->scope, same->own, watch);
+    same->costs = same->own;
+  }
+  return made;
+}
+
+FactorGraph factor_graph(const LabelingProblem& problem, Watch& watch) {
+  return GraphBuilder(problem, watch).build();
+}
+
+}  // namespace toposcope::posterior
