@@ -74,6 +74,7 @@ class ImpatientContext final : public Context {
   bool cancelled() const override { return patient_.cancelled(); }
   std::uint64_t seed() const override { return patient_.seed(); }
   unsigned threads() const override { return patient_.threads(); }
+  std::uint64_t memory_budget() const override { return patient_.memory_budget(); }
   void parallel_for(std::size_t count, std::size_t grain,
                     const std::function<void(std::size_t, std::size_t)>& body) override {
     patient_.parallel_for(count, grain, [&](std::size_t first, std::size_t last) {
