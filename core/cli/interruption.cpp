@@ -12,8 +12,10 @@ namespace {
 
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
 RunContext* interruptible = nullptr;  // the one thing a signal handler can reach
+volatile sig_atomic_t signalled = 0;
 
 void on_signal(int) {
+  signalled = 1;
   if (interruptible) interruptible->cancel();
 }
 
@@ -37,6 +39,10 @@ Interruption::Interruption(RunContext& context) {
 Interruption::~Interruption() {
   handle(SIG_DFL);
   interruptible = nullptr;
+}
+
+bool interrupted() {
+  return signalled != 0;
 }
 
 void stop_if_cancelled(const Context& context, const std::string& undone) {

@@ -17,6 +17,9 @@ class Interruption {
   Interruption& operator=(const Interruption&) = delete;
 };
 
+/// Whether a signal has come to an Interruption. A program that we run gets Ctrl-C too, and fails before we look.
+bool interrupted();
+
 /// \param undone  what was not done, for the message
 /// \throw Error  with the exit code of an interrupted program, if the context was cancelled
 void stop_if_cancelled(const Context& context, const std::string& undone);

@@ -7,9 +7,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/errors.h"
 #include "command_line.h"
 #include "commands.h"
 #include "failure.h"
+#include "interruption.h"
 #include "output.h"
 
 namespace {
@@ -60,7 +62,9 @@ int main(int argc, char** argv) {
     return dispatch(argc, argv);
   } catch (...) {
     const Failure failure = present_failure();
-    complain(failure.message);
-    return failure.exit_code;
+    const bool stopped = interrupted();
+    complain(stopped && failure.exit_code != toposcope::interrupted_exit_code ? "interrupted; " + failure.message
+                                                                              : failure.message);
+    return stopped ? toposcope::interrupted_exit_code : failure.exit_code;
   }
 }

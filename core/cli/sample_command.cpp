@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 #include "base/assignment.h"
 #include "base/errors.h"
@@ -63,6 +65,28 @@ SampleRequest request_of(const SampleOptions& options) {
   return request;
 }
 
+/// Leaves a computation in the midst once it is cancelled, because half a scan is of no use.
+class ImpatientContext final : public Context {
+ public:
+  explicit ImpatientContext(Context& patient) : patient_(patient) {}
+  void log(LogLevel level, std::string_view message) override { patient_.log(level, message); }
+  void progress(double fraction) override { patient_.progress(fraction); }
+  bool cancelled() const override { return patient_.cancelled(); }
+  std::uint64_t seed() const override { return patient_.seed(); }
+  unsigned threads() const override { return patient_.threads(); }
+  std::uint64_t memory_budget() const override { return patient_.memory_budget(); }
+  void parallel_for(std::size_t count, std::size_t grain,
+                    const std::function<void(std::size_t, std::size_t)>& body) override {
+    patient_.parallel_for(count, grain, [&](std::size_t first, std::size_t last) {
+      stop_if_cancelled(patient_, "nothing was written");
+      body(first, last);
+    });
+  }
+
+ private:
+  Context& patient_;
+};
+
 Sample scanned(const SampleOptions& options) {
   if (options.noise > 0)
     throw UsageError(
@@ -74,10 +98,15 @@ Sample scanned(const SampleOptions& options) {
                               .smoothing = options.smoothing,
                               .seed = options.seed};
   Session session(options);
-  const Sample target = make_scan_target(request_of(options), session.context());
-  Sample made = scan(target, settings, session.host(), session.context());
-  stop_if_cancelled(session.context(), options.out.string() + " was not written");
-  return made;
+  ImpatientContext context(session.context());
+  std::optional<Sample> made;
+  try {
+    made = scan(make_scan_target(request_of(options), context), settings, session.host(), context);
+  } catch (const Error&) {
+    if (!context.cancelled()) throw;
+  }
+  stop_if_cancelled(context, options.out.string() + " was not written");
+  return std::move(*made);
 }
 
 Sample exact(const SampleOptions& options) {

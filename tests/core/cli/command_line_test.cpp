@@ -126,6 +126,20 @@ TEST(CommandLine, TheEndSaysWhatWasNotDone) {
   EXPECT_THAT(evaluated.err, HasSubstr("1 of 1 meshes was not done: bad"));
 }
 
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(CommandLine, AMeshThatMemoryDoesNotHoldLeavesTheOthersToBeDone) {
+  const TemporaryFolder folder;
+  write_text(folder / "good.off", triangle);
+  write_text(folder / "huge.off", triangle);
+  fs::resize_file(folder / "huge.off", std::uintmax_t{1} << 36);  // takes no room on the disk
+  const Outcome outcome = shell("ulimit -v 4000000; " TOPOSCOPE_BUILD_DIR "/bin/toposcope prepare --threads 1 " +
+                                (folder / "huge.off").string() + " " + (folder / "good.off").string());
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("huge.off: out of memory"));
+  EXPECT_THAT(outcome.out, HasSubstr("good.off"));
+}
+#endif
+
 TEST(CommandLine, NamesFromFilesStayInTheirFolder) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "out");

@@ -45,5 +45,23 @@ TEST_F(Interrupted, ACheckOfPluginsTakesItsChildrenAlong) {
   }
 }
 
+TEST_F(Interrupted, ASolverThatRunsIsEnded) {
+  const std::string pid = (folder_ / "pid").string(), solver = (folder_ / "bin/toulbar2").string();
+  fs::create_directories(folder_ / "bin");
+  write_text(solver, "#!/bin/sh\ntrap '' INT TERM\necho $$ >" + pid + "\nexec sleep 60\n");
+  fs::permissions(solver, fs::perms::owner_all);
+  write_text(folder_ / "p.wcsp", "t 2 2 1 10\n2 2\n2 0 1 0 1\n0 0 3\n");
+  for (const char* signal : {"INT", "TERM"}) {
+    fs::remove(pid);
+    const Outcome outcome =
+        shell("export PATH=" + (folder_ / "bin").string() + ":$PATH TMPDIR=" + (folder_ / "tmp").string() +
+              " && timeout --preserve-status -s " + signal + " 1 " TOPOSCOPE_BUILD_DIR "/bin/toposcope label " +
+              (folder_ / "p.wcsp").string() + " --labeler toulbar2");
+    EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+    EXPECT_EQ(files("tmp"), 0U);
+    EXPECT_NE(shell("kill -0 $(cat " + pid + ")").exit_code, 0) << "still runs";
+  }
+}
+
 }  // namespace
 }  // namespace toposcope::test
