@@ -102,7 +102,7 @@ void print_options() {
   VALUE(OptionType, boolean);
   VALUE(OptionType, text);
   STRUCT(OptionSpec, MEMBER(name) MEMBER(type) MEMBER(unit) MEMBER(default_value) MEMBER(minimum) MEMBER(maximum)
-                         MEMBER(meaning) MEMBER(choices))
+                         MEMBER(meaning) MEMBER(choices) MEMBER(not_above))
   STRUCT(OptionValue, MEMBER(name) MEMBER(number) MEMBER(text))
   std::printf("size Options %zu\n", sizeof(Options));
   STRUCT(ProvidedName, MEMBER(name) MEMBER(dimension) MEMBER(meaning))

@@ -159,7 +159,7 @@ void add_compare(CLI::App& app, int& code) {
       ->capture_default_str();
   command.add_option("--time-limit", options->time_limit_s, "seconds for each labeler and problem")
       ->type_name("S")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->capture_default_str();
   command.add_option("--out", options->out, "write index.html, comparison.json and .csv to DIR")->type_name("DIR");
   add_table_formats(command, options->json, options->csv, options->markdown, "mesh and labeler");

@@ -205,11 +205,11 @@ void add_label(CLI::App& app, int& code) {
       ->capture_default_str();
   command.add_option("--within", options->within, "leave out what costs more than the best by over T")
       ->type_name("T")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_zero());
   command.add_flag("--marginals", options->marginals, "the probability of every value");
   command.add_option("--time-limit", options->time_limit_s, "seconds")
       ->type_name("S")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->capture_default_str();
   command.add_option("--save-problem", options->save, "write the problem too, in the format of its extension")
       ->type_name("FILE");

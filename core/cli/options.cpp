@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
+#include <limits>
 
 namespace toposcope::cli {
 
@@ -16,6 +18,17 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
       return fmt::format("'{}' cannot be used; expected a whole number from {} to {}", text, least, most);
     text = std::to_string(value);
     return std::string();
+  };
+  return CLI::Validator(check, "", "");
+}
+
+CLI::Validator number_from_zero() {
+  const auto check = [](const std::string& text) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto read = std::from_chars(text.data(), end, value);
+    const bool good = read.ec == std::errc() && read.ptr == end && value >= 0 && std::isfinite(value);
+    return good ? std::string() : fmt::format("'{}' cannot be used; expected a number of at least 0", text);
   };
   return CLI::Validator(check, "", "");
 }

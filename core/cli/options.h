@@ -32,6 +32,9 @@ struct ResultOptions {
 /// A whole number in decimal digits: CLI11 would read "010" as eight.
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most);
 
+/// A finite number of at least 0.
+CLI::Validator number_from_zero();
+
 void add_plugin_dirs(CLI::App& command, std::vector<fs::path>& dirs);
 void add_threads(CLI::App& command, unsigned& threads);
 void add_seed(CLI::App& command, std::uint64_t& seed, const std::string& of = "everything random");

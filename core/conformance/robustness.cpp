@@ -168,9 +168,15 @@ std::string check_option_bounds(const Subject& subject, const TrialSet& trials) 
   }
   for (const OptionRow& row : subject.manifest.arguments) {
     for (const std::string& value : extremes(row)) {
-      // So may a combination of arguments, by std::invalid_argument.
+      // So may a combination of arguments, by the table or by std::invalid_argument.
       const auto object = made(subject);
-      const auto arguments = subject.arguments({{row.name, value}});
+      std::vector<OptionValue> arguments;
+      try {
+        arguments = subject.arguments({{row.name, value}});
+      } catch (const UsageError&) {
+        ++refused;
+        continue;
+      }
       if (refuses(*object, arguments, *trials.ordinary.front()))
         ++refused;
       else

@@ -5,6 +5,7 @@
 
 #include "hitting_set.h"
 #include "tree_search.h"
+#include "words.h"
 
 namespace toposcope {
 namespace {
@@ -195,10 +196,7 @@ std::string in_words(const LabelingProblem& problem, const ConflictSet& set) {
   for (const auto& [first, second] : set.exclusions)
     names.push_back("the exclusion of '" + problem.variables[first].name + "' and '" + problem.variables[second].name +
                     "'");
-  std::string text;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    text += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
-  return names.empty() ? "none is needed: a domain has no value of finite cost" : text;
+  return names.empty() ? "none is needed: a domain has no value of finite cost" : list_of(names);
 }
 
 void add_conflict_fact(const LabelingProblem& problem, const ConflictQuestion& question, const LabelingRequest& request,

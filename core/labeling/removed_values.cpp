@@ -4,16 +4,10 @@
 #include <algorithm>
 #include <string>
 
+#include "words.h"
+
 namespace toposcope {
 namespace {
-
-/// 'a', 'b' and 'c'
-std::string list_of(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t k = 0; k < names.size(); ++k)
-    text += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
-  return text;
-}
 
 class Reasons {
  public:

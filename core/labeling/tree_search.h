@@ -11,7 +11,7 @@
 namespace toposcope {
 
 /// Chronological tree search with forward checking or maintained arc consistency, dynamic variable ordering
-/// (dom/wdeg, Boussemart et al. 2004) and conflict-directed backjumping (Prosser 1993).
+/// (dom/wdeg [Boussemart2004]) and conflict-directed backjumping [Prosser1993].
 class TreeSearch {
  public:
   TreeSearch(const CompiledNetwork& network, const CrispRules& rules, CrispVisitor& visitor, Deadline& deadline);

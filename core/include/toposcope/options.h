@@ -22,6 +22,8 @@ struct OptionSpec {
   const char* maximum;        ///< likewise
   const char* meaning;        ///< one line
   const char* choices = "";   ///< of a text: what it may be, "a|b|c"; "" = any text
+  /// Of a number: the row of the same table that it may not exceed, as "max" for "min"; "" = none.
+  const char* not_above = "";
 };
 
 /// A checked value: the kernel has verified type, range and choice and filled in the defaults.

@@ -7,13 +7,14 @@
 
 #include "base/errors.h"
 #include "plugin/guard.h"
+#include "plugin/option_check.h"
 
 namespace toposcope {
 namespace {
 
 std::vector<OptionValue> relation_arguments(const MeshView& mesh, const Relationship& relationship,
-                                            const std::vector<OptionValue>& defaults) {
-  std::vector<OptionValue> values = defaults;
+                                            const RelationshipStation& station) {
+  std::vector<OptionValue> values = station.defaults;
   for (const auto& argument : relationship.arguments) {
     const std::string& name = argument.first;
     const Expression& expression = argument.second;
@@ -24,15 +25,8 @@ std::vector<OptionValue> relation_arguments(const MeshView& mesh, const Relation
       throw UsageError(relationship.where.str() + ": '" + name + ": " + expression.text() +
                        "' is no number on this mesh; mind divisions by a box side of 0");
   }
-  // By convention of the relations that hold within a range.
-  const auto named = [&](const char* name) {
-    return std::find_if(values.begin(), values.end(), [&](const OptionValue& v) { return v.name == name; });
-  };
-  const auto low = named("min"), high = named("max");
-  if (low != values.end() && high != values.end() && low->number > high->number)
-    throw UsageError(relationship.where.str() + ": relationship '" + relationship.name + "' asks for at least " +
-                     std::to_string(low->number) + " and at most " + std::to_string(high->number) +
-                     " on this mesh; exchange min and max");
+  check_order(station.arguments, values,
+              relationship.where.str() + ": relationship '" + relationship.name + "' on this mesh");
   return values;
 }
 
@@ -50,7 +44,7 @@ void check(const RelationResult& result) {
 BoundRelation::BoundRelation(const ModelRun& run, Index relationship)
     : run_(&run),
       relationship_(relationship),
-      arguments_(relation_arguments(run.mesh, this->relationship(), station().defaults)) {
+      arguments_(relation_arguments(run.mesh, this->relationship(), station())) {
   if (const auto& given = this->relationship().tolerance)
     tolerance_ = positive_on_mesh(*given, {run.mesh.box, Box{}}, this->relationship().where, "tolerance") *
                  (station().unit == "deg" ? pi / 180 : 1);

@@ -109,6 +109,7 @@ Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const
     RelationshipStation& station = stations.relationships.emplace_back();
     station.unit = relation.unit;
     station.ordered = relation.ordered;
+    station.arguments = relation.arguments;
     station.defaults = argument_defaults(relation, where + ": relation '" + relation.id + "'");
     station.tester = plugins.relation(relation);
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "plugin/manifest.h"
 #include "plugin/option_check.h"
 #include "probability/likelihood.h"
 #include "toposcope/filters.h"
@@ -54,9 +55,10 @@ struct FeatureStation {
 /// What tests one relationship of the model.
 struct RelationshipStation {
   std::shared_ptr<const RelationTester> tester;
-  std::vector<OptionValue> defaults;  ///< of the arguments that have one: the model's expressions await the mesh
-  std::string unit;                   ///< of the residual: "deg" or "length"
-  bool ordered = false;               ///< it matters which feature comes first
+  std::vector<OptionValue> defaults;      ///< of the arguments that have one: the model's expressions await the mesh
+  std::string unit;                       ///< of the residual: "deg" or "length"
+  bool ordered = false;                   ///< it matters which feature comes first
+  std::vector<OptionRow> arguments = {};  ///< as the plugin declares them
 };
 
 struct LabelerStation {

@@ -46,7 +46,7 @@ std::vector<OptionRow> rows(const OptionSpec* table, std::size_t count, const st
                                 std::to_string(static_cast<std::uint32_t>(spec.type)));
     copied.push_back({text(spec.name, id, field), spec.type, text(spec.unit, id, field),
                       text(spec.default_value, id, field), text(spec.minimum, id, field), text(spec.maximum, id, field),
-                      text(spec.meaning, id, field), text(spec.choices, id, field)});
+                      text(spec.meaning, id, field), text(spec.choices, id, field), text(spec.not_above, id, field)});
   }
   return copied;
 }
@@ -65,8 +65,8 @@ std::string list(const std::vector<OptionRow>& table) {
   std::string all;
   for (const OptionRow& row : table)
     all += row.name + " (" + types[static_cast<std::size_t>(row.type)] + ", unit '" + row.unit + "', default '" +
-           row.default_value + "', '" + row.minimum + "' to '" + row.maximum + "', choices '" + row.choices + "', " +
-           row.meaning + "); ";
+           row.default_value + "', '" + row.minimum + "' to '" + row.maximum + "', choices '" + row.choices +
+           "', not above '" + row.not_above + "', " + row.meaning + "); ";
   return all;
 }
 

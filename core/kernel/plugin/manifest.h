@@ -30,6 +30,7 @@ struct OptionRow {
   OptionType type = OptionType::real;
   std::string unit, default_value, minimum, maximum, meaning;
   std::string choices = {};  ///< of a text, separated by '|'
+  std::string not_above = {};
 };
 
 struct ProvidedRow {

@@ -29,6 +29,7 @@ Json to_json(const std::vector<OptionRow>& table) {
     } else {
       entry["minimum"] = row.minimum;
       entry["maximum"] = row.maximum;
+      if (!row.not_above.empty()) entry["not_above"] = row.not_above;
     }
     entry["meaning"] = row.meaning;
     rows.push_back(std::move(entry));
@@ -43,6 +44,7 @@ class Fields {
     if (!object.is_object()) throw UsageError((path_.empty() ? "document" : path_) + ": must be an object");
   }
 
+  bool has(const char* name) const { return object_.contains(name); }
   const Json& field(const char* name) const {
     const auto found = object_.find(name);
     if (found == object_.end()) throw UsageError(at(name) + ": is missing");
@@ -93,7 +95,7 @@ class Fields {
 };
 
 OptionRow option_row(const Fields& fields) {
-  fields.allow_only({"name", "type", "unit", "default", "minimum", "maximum", "choices", "meaning"});
+  fields.allow_only({"name", "type", "unit", "default", "minimum", "maximum", "not_above", "choices", "meaning"});
   OptionRow row;
   row.name = fields.text("name");
   const std::string type = fields.text("type");
@@ -108,6 +110,7 @@ OptionRow option_row(const Fields& fields) {
   } else {
     row.minimum = fields.text("minimum");
     row.maximum = fields.text("maximum");
+    if (fields.has("not_above")) row.not_above = fields.text("not_above");
   }
   row.meaning = fields.text("meaning");
   return row;

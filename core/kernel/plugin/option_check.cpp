@@ -134,7 +134,21 @@ std::vector<OptionValue> check_options(std::span<const OptionRow> table, std::sp
                        describe_constraint(row) + ": " + row.meaning);
     checked.push_back(values[i] ? std::move(*values[i]) : check_value(row, row.default_value, owner));
   }
+  check_order(table, checked, owner);
   return checked;
+}
+
+void check_order(std::span<const OptionRow> table, std::span<const OptionValue> values, const std::string& owner) {
+  const auto named = [&](const std::string& name) {
+    return std::find_if(values.begin(), values.end(), [&](const OptionValue& value) { return value.name == name; });
+  };
+  for (const OptionRow& row : table) {
+    if (row.not_above.empty()) continue;
+    const auto low = named(row.name), high = named(row.not_above);
+    if (low != values.end() && high != values.end() && low->number > high->number)
+      throw UsageError(owner + ": " + row.name + " = " + to_string(row, *low) + " is above " + row.not_above + " = " +
+                       to_string(row, *high) + "; exchange them or change one");
+  }
 }
 
 void check_table(std::span<const OptionRow> table, const std::string& owner) {
@@ -160,6 +174,14 @@ void check_table(std::span<const OptionRow> table, const std::string& owner) {
     if (numeric && !row.minimum.empty() && !row.maximum.empty() &&
         *parse_number(row.type, row.minimum) > *parse_number(row.type, row.maximum))
       throw UsageError(where + ": minimum " + row.minimum + " is above maximum " + row.maximum);
+    if (!row.not_above.empty()) {
+      const auto other =
+          std::find_if(table.begin(), table.end(), [&](const OptionRow& each) { return each.name == row.not_above; });
+      if (!numeric || other == table.end() || other == table.begin() + static_cast<std::ptrdiff_t>(i) ||
+          (other->type != OptionType::real && other->type != OptionType::integer))
+        throw UsageError(where + ": 'not_above' says '" + row.not_above +
+                         "'; it names another number of the same table, and stands at a number");
+    }
     if (!row.default_value.empty()) check_value(row, row.default_value, where);
   }
 }

@@ -21,9 +21,12 @@ OptionValue check_option(std::span<const OptionRow> table, std::string_view name
                          const std::string& owner);
 
 /// All options of one plugin: one value per row of the table, in its order, defaults filled in.
-/// \throw UsageError  as above; an option given twice; one without default not given
+/// \throw UsageError  as above; an option given twice; one without default not given; one above what it may not exceed
 std::vector<OptionValue> check_options(std::span<const OptionRow> table, std::span<const GivenOption> given,
                                        const std::string& owner);
+
+/// Is every value at most what its row says that it may not exceed? \throw UsageError  names both, and the remedy
+void check_order(std::span<const OptionRow> table, std::span<const OptionValue> values, const std::string& owner);
 
 /// Is the table itself sound? Names, bounds in order, defaults within them.
 /// \throw UsageError

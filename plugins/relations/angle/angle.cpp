@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "toposcope/geometry/lines.h"
 #include "toposcope/geometry/residuals.h"
@@ -21,8 +20,6 @@ class Angle final : public RelationTester {
     const FittedShape& first = *input.features[0].shape;
     const FittedShape& second = *input.features[1].shape;
     const double low = arguments.real("min") * pi / 180, high = arguments.real("max") * pi / 180;
-    if (low > high)
-      throw std::invalid_argument("angle: min is greater than max, no angle lies between; exchange them in the model");
     RelationResult result;
     if (!directed(first, second)) {
       result.applicable = false;
@@ -48,7 +45,7 @@ constexpr OptionSpec options[] = {
     {"tolerance", OptionType::real, "deg", "5", "0.01", "90", "how far beyond the model's range the angle may lie"},
 };
 constexpr OptionSpec arguments[] = {
-    {"min", OptionType::real, "deg", "0", "0", "90", "least angle"},
+    {"min", OptionType::real, "deg", "0", "0", "90", "least angle", "", "max"},
     {"max", OptionType::real, "deg", "90", "0", "90", "greatest angle"},
 };
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 #include "toposcope/geometry/residuals.h"
 #include "toposcope/plugin.h"
@@ -25,12 +23,6 @@ class AxisDistance final : public RelationTester {
     const FittedShape& beside = *input.features[1].shape;
     if (arguments.real("max") >= unlimited && arguments.real("max_radii") >= unlimited)
       throw std::invalid_argument("axis-distance: has neither max nor max_radii; give one of them in the model");
-    for (const auto& [least, most] : {std::pair("min", "max"), std::pair("min_radii", "max_radii")})
-      if (arguments.real(least) > arguments.real(most))
-        throw std::invalid_argument(std::string("axis-distance: ") + least + " = " +
-                                    std::to_string(arguments.real(least)) + " is greater than " + most + " = " +
-                                    std::to_string(arguments.real(most)) +
-                                    ", no distance lies between; exchange them in the model");
     RelationResult result;
     if (round.orientation == Orientation::none) {
       result.applicable = false;
@@ -69,10 +61,12 @@ constexpr OptionSpec options[] = {
      "how far beyond the model's range the distance may lie"},
 };
 constexpr OptionSpec arguments[] = {
-    {"min", OptionType::real, "length", "0", "0", "", "least distance of the second centroid from the first's axis"},
+    {"min", OptionType::real, "length", "0", "0", "", "least distance of the second centroid from the first's axis", "",
+     "max"},
     {"max", OptionType::real, "length", "1e30", "0", "",
      "greatest distance of the second centroid from the first's axis"},
-    {"min_radii", OptionType::real, "radii", "0", "0", "", "least distance, in radii of the first feature"},
+    {"min_radii", OptionType::real, "radii", "0", "0", "", "least distance, in radii of the first feature", "",
+     "max_radii"},
     {"max_radii", OptionType::real, "radii", "1e30", "0", "", "greatest distance, in radii of the first feature"},
 };
 

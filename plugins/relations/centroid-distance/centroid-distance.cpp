@@ -2,8 +2,6 @@
 // Centroid_Distance(min, max) of the dissertation, 4.6.
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "toposcope/geometry/residuals.h"
 #include "toposcope/plugin.h"
@@ -21,9 +19,6 @@ class CentroidDistance final : public RelationTester {
     const FittedShape& second = *input.features[1].shape;
     const double low = arguments.real("min");
     const double high = arguments.real("max");
-    if (low > high)
-      throw std::invalid_argument("centroid-distance: min = " + std::to_string(low) + " is greater than max = " +
-                                  std::to_string(high) + ", no distance lies between; exchange them in the model");
     const double distance = (second.centroid - first.centroid).norm();
     const double diagonal = input.object_box.diagonal();
     RelationResult result;
@@ -43,7 +38,7 @@ constexpr OptionSpec options[] = {
      "how far beyond the model's range the distance may lie"},
 };
 constexpr OptionSpec arguments[] = {
-    {"min", OptionType::real, "length", "0", "0", "", "least distance of the centroids"},
+    {"min", OptionType::real, "length", "0", "0", "", "least distance of the centroids", "", "max"},
     {"max", OptionType::real, "length", "", "0", "", "greatest distance of the centroids"},
 };
 

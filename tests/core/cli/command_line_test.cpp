@@ -31,6 +31,7 @@ TEST(CommandLine, WhatIsWrongIsTold) {
       {"run x.ply --model cup --seed -1", "whole number from 0 to 18446744073709551615"},
       {"run x.ply --model cup --seed 18446744073709551616", "whole number from 0 to"},
       {"sample cup -o x.ply --faces 1e3", "whole number"},
+      {"label x --time-limit nan", "expected a number of at least 0"},
       {"run x.ply --model cup --seed ''", "--seed is empty"},
       {"run x.ply --model cup --locked ''", "--locked is empty"},
       {"run x.ply --model cup --lock ''", "--lock is empty"},

@@ -29,7 +29,7 @@ class Interrupted : public ::testing::Test {
 
 TEST_F(Interrupted, AScanIsNotWritten) {
   for (const char* signal : {"INT", "TERM"}) {
-    const Outcome outcome = after("0.5", signal, "sample cup --scan --views 400 --faces 200000 -o scan.ply");
+    const Outcome outcome = after("1", signal, "sample cup --scan --views 400 --faces 200000 -o scan.ply");
     EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
     EXPECT_THAT(outcome.err, ::testing::HasSubstr("scan.ply was not written"));
     EXPECT_EQ(files("."), 1U) << "only tmp";
@@ -38,7 +38,7 @@ TEST_F(Interrupted, AScanIsNotWritten) {
 
 TEST_F(Interrupted, ACheckOfPluginsTakesItsChildrenAlong) {
   for (const char* signal : {"INT", "TERM"}) {
-    const Outcome outcome = after("1.5", signal, "plugins check " TOPOSCOPE_BUILD_DIR "/plugins/labelers");
+    const Outcome outcome = after("2", signal, "plugins check " TOPOSCOPE_BUILD_DIR "/plugins/labelers");
     EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
     EXPECT_EQ(files("tmp"), 0U);
     EXPECT_NE(shell("pgrep -f -- '[-]-child " TOPOSCOPE_BUILD_DIR "/plugins/labelers'").exit_code, 0);

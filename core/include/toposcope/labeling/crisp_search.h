@@ -26,17 +26,17 @@ class CrispNetwork {
   CrispNetwork(const CrispNetwork&) = delete;
   CrispNetwork& operator=(const CrispNetwork&) = delete;
 
-  /// That it was compiled from.
+  /// That it was made of.
   const LabelingProblem& problem() const;
-  /// Whether all was compiled.
+  /// False where the deadline came first.
   bool complete() const;
   /// False where a constraint's violations forbid what its costs do not: then consistent labellings are fewer than
   /// those of finite cost.
   bool by_cost_alone() const;
 
-  /// Number of variables.
+  /// How many.
   Index variables() const;
-  /// Number of the variable's values.
+  /// How many values a variable has.
   Index domain(Index variable) const { return offsets_[variable + 1] - offsets_[variable]; }
   /// Position of a variable's first value among all values of all variables; `offset(variables())` is their number.
   Index offset(Index variable) const { return offsets_[variable]; }
@@ -52,7 +52,7 @@ class CrispNetwork {
 /// What is left of each variable's values, at any moment. Owned by who changes it.
 class CrispDomains {
  public:
-  /// A view of what propagation keeps.
+  /// For the library itself: views of what it keeps.
   CrispDomains(const std::uint64_t* words, const std::size_t* offsets, const Index* sizes, const char* assigned)
       : words_(words), offsets_(offsets), sizes_(sizes), assigned_(assigned) {}
   /// As bits: see `for_each_value`.
@@ -93,7 +93,7 @@ class ArcConsistency {
   /// \pre network.complete()
   /// Stopped by the deadline the domains are left too large. \return false where a domain is empty
   bool relax();
-  /// What is left.
+  /// As they are now.
   const CrispDomains& domains() const;
   /// In the order in which they were removed, each with its reason: first those of infinite cost or that a constraint
   /// over the variable alone forbids. *Missing* is not among them where all must be present.
@@ -104,15 +104,15 @@ class ArcConsistency {
   std::unique_ptr<State> state_;
 };
 
-/// How a search goes.
+/// How a search goes about it.
 struct CrispRules {
-  /// Arc consistency: not at all, before the search, or at every node.
+  /// When arc consistency is made: never (forward checking alone), before the search, at every node.
   enum class Relaxation : std::uint8_t { none, before, maintained };
-  /// Fewest values over the weight of failures, fewest values, or `detectability_order`.
+  /// Which variable is next: smallest domain over weight of failures, smallest domain, `detectability_order`.
   enum class Order : std::uint8_t { weighted, smallest_domain, detectability };
-  Relaxation relaxation = Relaxation::maintained;  ///< none: forward checking alone
+  Relaxation relaxation = Relaxation::maintained;  ///< when
   Order order = Order::weighted;                   ///< of the variables
-  bool backjumping = true;                         ///< back at once to a decision that is to blame for a failure
+  bool backjumping = true;                         ///< goes back at once to a decision that is to blame for a failure
   Index missing_limit = no_candidate;              ///< at most so many variables missing
   bool missing_last = false;  ///< *missing* is tried after all candidates; else in the order of the costs
 };
@@ -145,9 +145,9 @@ class CrispSearch {
   CrispSearch(const CrispSearch&) = delete;
   CrispSearch& operator=(const CrispSearch&) = delete;
 
-  /// Why a search ended.
+  /// Why a search ended: all was visited, the visitor wanted no more, the deadline came.
   enum class End : std::uint8_t { exhausted, ended_by_visitor, out_of_time };
-  /// Searches from the root; of a network that is not complete it ends at once, out of time.
+  /// Once.
   End run();
 
   /// At the root (after relaxation) before and after `run`, at the present node within.
@@ -162,9 +162,9 @@ class CrispSearch {
 
 /// What `first_consistent` found.
 struct FirstConsistent {
-  bool found = false;              ///< whether there is a labelling
+  bool found = false;              ///< there is a labelling
   bool proven = false;             ///< that there is none; or, with fewest missing, that none has fewer missing
-  std::vector<Index> values = {};  ///< one per variable, where found
+  std::vector<Index> values = {};  ///< the labelling, a value per variable
   std::uint64_t nodes = 0;         ///< values tried
 };
 

@@ -22,7 +22,7 @@ class CostTables {
   CostTables(const CostTables&) = delete;
   CostTables& operator=(const CostTables&) = delete;
 
-  /// Whose tables they are.
+  /// That they were made of.
   const LabelingProblem& problem() const { return problem_; }
   /// Only then may a ConditionalCosts be made.
   bool complete() const;
@@ -35,9 +35,9 @@ class CostTables {
 
   /// Values of all variables in one row: value `a` of variable v is position offset(v) + a.
   std::size_t offset(Index v) const { return offsets_[v]; }
-  /// Number of the variable's values.
+  /// How many values a variable has.
   std::size_t domain(Index v) const { return offsets_[v + 1] - offsets_[v]; }
-  /// The variable whose value stands at the position.
+  /// The variable of a position.
   Index owner(std::size_t position) const { return owners_[position]; }
   /// Positions whose own cost is finite, by variable: all that local search looks at. Empty until all are read.
   std::span<const std::uint32_t> allowed() const { return allowed_; }
@@ -46,9 +46,8 @@ class CostTables {
     return {allowed_.data() + allowed_offsets_[v], allowed_.data() + allowed_offsets_[v + 1]};
   }
 
-  /// For the library itself.
   struct State;
-  /// Likewise.
+  /// For the library itself.
   const State& state() const { return *state_; }
 
  private:
@@ -76,7 +75,7 @@ class ConditionalCosts {
   /// Gives a variable another value. No allocation.
   void assign(Index v, Index value);
 
-  /// The labelling, one value per variable.
+  /// As they are now, one per variable.
   const std::vector<Index>& values() const { return values_; }
   double cost() const { return cost_; }            ///< sum of the finite costs, nats; rounding as in any sum
   std::int64_t broken() const { return broken_; }  ///< forbidden values and entries, and excluded pairs

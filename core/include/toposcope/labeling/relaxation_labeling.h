@@ -28,13 +28,13 @@ class Compatibilities {
   Compatibilities(const Compatibilities&) = delete;
   Compatibilities& operator=(const Compatibilities&) = delete;
 
-  /// Whether all tables were read.
+  /// False where the deadline came first.
   bool complete() const;
-  /// Cost at which a compatibility saturates, nats.
+  /// As given or found, nats.
   double saturation() const;
-  /// Number of variables.
+  /// How many.
   Index variables() const;
-  /// Number of labels of all variables together.
+  /// How many, of all variables.
   std::size_t labels() const;
   /// Of the variable's first label among all; `offset(variables())` is `labels()`.
   std::size_t offset(Index v) const;
@@ -59,21 +59,21 @@ void project_on_simplexes(const Compatibilities& compatibilities, std::span<doub
 /// Mean over the variables of -sum p log p, nats.
 double mean_entropy(const Compatibilities& compatibilities, std::span<const double> weights);
 
-/// How weights change, and when that ends.
+/// How weights are changed, and when that ends.
 struct RelaxationRules {
   bool projected_gradient = true;  ///< else Rosenfeld, Hummel and Zucker
   int iterations = 1000;           ///< at most
   double tolerance = 1e-6;         ///< of weights
 };
 
-/// Where the weights came to.
+/// What became of the weights.
 struct Relaxed {
-  std::vector<double> weights;   ///< per label, 0 to 1
+  std::vector<double> weights;   ///< per label
   int iterations = 0;            ///< made
-  bool converged = false;        ///< to the tolerance
+  bool converged = false;        ///< else stopped, or the limit of iterations
   std::string criterion;         ///< why it ended
-  double consistency_start = 0;  ///< A(p) of the first weights
-  double consistency = 0;        ///< A(p) of the last
+  double consistency_start = 0;  ///< A(p) at first
+  double consistency = 0;        ///< A(p) at the end
 };
 
 /// Rosenfeld, Hummel and Zucker: p(l) <- p(l) (1 + q(l) / degree), normed; ends where no weight changes by more than

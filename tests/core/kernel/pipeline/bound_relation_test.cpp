@@ -68,6 +68,16 @@ TEST_F(BoundRelations, AnArgumentThatIsNoNumberIsRefused) {
   EXPECT_THAT(refusal<UsageError>(), AllOf(HasSubstr("'min: bb(O).a/bb(O).c'"), HasSubstr("no number")));
 }
 
+TEST_F(BoundRelations, AnArgumentAboveWhatItMayNotExceedIsRefused) {
+  OptionRow min{"min", OptionType::real, "length", "", "", "", "least"};
+  min.not_above = "max";
+  stations.relationships[0].arguments = {min, {"max", OptionType::real, "length", "", "", "", "most"}};
+  model.relationships[0].arguments = {{"min", expression("2")}, {"max", expression("bb(O).a/3")}};
+  EXPECT_EQ(test().residual, 2);
+  model.relationships[0].arguments = {{"min", expression("4")}, {"max", expression("bb(O).a/3")}};
+  EXPECT_THAT(refusal<UsageError>(), AllOf(HasSubstr("min = 4 is above max = "), HasSubstr("exchange")));
+}
+
 TEST_F(BoundRelations, AResultThatIsNoneIsThePluginsFault) {
   stations.relationships[0].defaults = {{"min", -1, ""}};
   EXPECT_THAT(refusal<PluginError>(), AllOf(HasSubstr("'apart'"), HasSubstr("residual")));

@@ -39,7 +39,7 @@ struct Origins : ::testing::Test {
   Origins() : mesh({corners, {{0, 1, 2}}, {0}, 1}, "triangle") {}
 
   PreparedMesh filtered(const std::vector<Gives>& filters) {
-    std::vector<Stations::Filter> stations;
+    std::vector<FilterStation> stations;
     for (const Gives& filter : filters) stations.push_back({"odd", std::make_shared<const Gives>(filter)});
     return apply_filters(mesh, stations, test::context());
   }
@@ -94,8 +94,8 @@ TEST_F(Origins, ThatAreNoneAreRefused) {
 
 TEST(OriginsOfFilters, RefinedThenDecimatedVerticesAreWhereTheyWere) {
   const Mesh mesh(test::make_torus(1, 0.4, 24, 12), "torus");
-  const std::vector<Stations::Filter> filters = {{"refine", test::filter("refine", {{"max_edge", "0.05"}})},
-                                                 {"decimate", test::filter("decimate", {{"faces", "700"}})}};
+  const std::vector<FilterStation> filters = {{"refine", test::filter("refine", {{"max_edge", "0.05"}})},
+                                              {"decimate", test::filter("decimate", {{"faces", "700"}})}};
   const PreparedMesh prepared = apply_filters(mesh, filters, test::context());
   const MeshView& view = prepared.view();
   ASSERT_EQ(view.input_vertices.size(), view.vertex_count());

@@ -88,6 +88,15 @@ TEST(OptionCheck, GivenTwiceOrNotAtAll) {
   EXPECT_EQ(error_of({{"segments", "3"}}, required), "");
 }
 
+TEST(OptionCheck, OneMayNotExceedAnother) {
+  const std::vector<OptionRow> range = {{"min", OptionType::real, "", "0", "", "", "least", "", "max"},
+                                        {"max", OptionType::real, "", "5", "", "", "greatest"}};
+  EXPECT_NO_THROW(check_table(range, "arguments"));
+  EXPECT_EQ(error_of({{"min", "5"}}, range), "");
+  EXPECT_THAT(error_of({{"min", "6"}}, range), HasSubstr("min = 6 is above max = 5; exchange them"));
+  EXPECT_THAT(error_of({{"min", "2.5"}, {"max", "-1"}}, range), HasSubstr("min = 2.5 is above max = -1"));
+}
+
 TEST(OptionCheck, DecimalPointIsAPointInEveryLocale) {
   const std::string before = std::setlocale(LC_NUMERIC, nullptr);
   if (std::setlocale(LC_NUMERIC, "de_DE.UTF-8") == nullptr) GTEST_SKIP() << "locale de_DE.UTF-8 is not installed";
@@ -125,6 +134,9 @@ TEST(OptionTable, UnsoundRowsAreRefused) {
   EXPECT_THAT(refused({"max", OptionType::text, "", "c", "", "", "x", "a|b"}), HasSubstr("one of a, b"));
   EXPECT_THAT(refused({"max", OptionType::text, "", "a", "a|b", "", "x"}), HasSubstr("'choices'"));
   EXPECT_THAT(refused({"max", OptionType::real, "", "1", "", "", "x", "1|2"}), HasSubstr("for a text"));
+  EXPECT_THAT(refused({"min", OptionType::real, "", "1", "", "", "x", "", "max"}), HasSubstr("'max'"));
+  EXPECT_THAT(refused({"min", OptionType::real, "", "1", "", "", "x", "", "min"}), HasSubstr("another number"));
+  EXPECT_THAT(refused({"min", OptionType::text, "", "1", "", "", "x", "", "max"}), HasSubstr("at a number"));
   std::vector<OptionRow> twice = {table[0], table[0]};
   EXPECT_THROW(check_table(twice, "options"), UsageError);
 }

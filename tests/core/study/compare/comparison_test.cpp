@@ -42,9 +42,9 @@ TEST(Comparison, TextSaysWhoAgrees) {
   const std::vector<Comparison> comparisons = comparisons_by_hand();
   EXPECT_EQ(to_text(comparisons[0]),
             "a.ply\n"
-            "  labeler                     cost       gap  posterior         ms     nodes  right  guarantee\n"
-            "  exact                 A     1.50         0        0.5       2.00        10    2/2  optimal\n"
-            "  quick:sweeps=a,b      B     3.50         2          -       1.00         0    1/2\n"
+            "  labeler                    cost       gap  posterior         ms     nodes  right  guarantee\n"
+            "  exact             A        1.50         0        0.5       2.00        10    2/2  optimal\n"
+            "  quick:sweeps=a,b  B        3.50         2          -       1.00         0    1/2\n"
             "  A  cup: rim=3 handle=-\n"
             "  B  cup: rim=- handle=-\n"
             "\n");
@@ -52,11 +52,11 @@ TEST(Comparison, TextSaysWhoAgrees) {
   EXPECT_EQ(
       to_text(totals(comparisons)),
       "all 2 meshes\n"
-      "  labeler            optimal  unsound  mean gap     worst  posterior  median ms   worst ms      nodes     "
+      "  labeler           optimal  unsound  mean gap     worst  posterior  median ms   worst ms      nodes     "
       "right\n"
-      "  exact                    2        0         0         0      0.500       3.00       4.00         30       "
+      "  exact                   2        0         0         0      0.500       3.00       4.00         30       "
       "3/4\n"
-      "  quick:sweeps=a,b         0        1         2         2          -       1.00       1.00          0       "
+      "  quick:sweeps=a,b        0        1         2         2          -       1.00       1.00          0       "
       "2/4\n");
   EXPECT_EQ(to_text(std::vector<Total>()), "");
 }

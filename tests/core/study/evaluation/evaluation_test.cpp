@@ -150,10 +150,10 @@ TEST(Evaluation, OfAGeneratedCupAtAnyThreadCount) {
   Dataset dataset;
   dataset.name = "two";
   for (const bool scan : {false, true}) {
-    MadeMesh source{.object = {.kind = "cup", .faces = 4000}};
-    if (scan) source.scan = ScanSettings{.faces = 4000, .parts = false};
+    MadeMesh made{.object = {.kind = "cup", .faces = 4000}};
+    if (scan) made.scan = ScanSettings{.faces = 4000, .parts = false};
     const std::string name = scan ? "scan" : "exact";
-    dataset.meshes.push_back({.name = name, .object = name, .variant = "", .source = source});
+    dataset.meshes.push_back({.name = name, .object = name, .variant = "", .source = made});
   }
   MadeMesh bad{.object = {.kind = "cup", .faces = 4000}};
   bad.object.parameters["wall"] = -1;

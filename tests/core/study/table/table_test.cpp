@@ -59,8 +59,8 @@ TEST(Table, AsJsonKeepsKindsUnitsAndNumbers) {
 }
 
 TEST(Table, OneBelowTheOther) {
-  EXPECT_EQ(to_text({by_hand(), by_hand()}), "\n" + to_text(by_hand()) + "\n" + to_text(by_hand()));
-  EXPECT_EQ(to_markdown({by_hand()}), "\n" + to_markdown(by_hand()));
+  EXPECT_EQ(to_text(std::vector<Table>{by_hand(), by_hand()}), "\n" + to_text(by_hand()) + "\n" + to_text(by_hand()));
+  EXPECT_EQ(to_markdown(std::vector<Table>{by_hand()}), "\n" + to_markdown(by_hand()));
 }
 
 TEST(Cell, WhatIsNoFiniteNumberIsNothing) {

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What fits and relations are told of the vertices, and tables that would take too much memory.
+// What fits and relations are told of the vertices.
 
-#include "pipeline/labeling_problem.h"
-
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <mutex>
 
-#include "base/errors.h"
-#include "base/run_context.h"
 #include "core/kernel/pipeline/rows_of_a_grid.h"
+#include "pipeline/relate.h"
 
 namespace toposcope {
 namespace {
@@ -74,33 +70,16 @@ TEST_F(Bars, FitsAndRelationsKnowTheVertices) {
       return result;
     }
   };
-  const auto watching = std::make_shared<const Watching>(*this, stations.shapes.at("line-group"));
+  const auto watching = std::make_shared<const Watching>(*this, stations.features[0].fitter);
   const auto asking = std::make_shared<const Asking>(*this);
-  stations.shapes["line-group"] = watching;
-  stations.relations["parallel"] = asking;
+  for (FeatureStation& feature : stations.features) feature.fitter = watching;
+  stations.relationships[0].tester = asking;
   first_look();
-  build_problem(mesh.view(), model, features, overlap, stations, test::context(2));
+  relate(run(), sets, features);
   EXPECT_GT(watching->seen, 0);
   EXPECT_EQ(watching->wrong, 0);
   EXPECT_GT(asking->seen, 0);
   EXPECT_EQ(asking->wrong, 0);
-}
-
-TEST_F(Bars, TablesBeyondTheMemoryOfTheRunAreRefused) {
-  first_look();
-  const LabelingProblem problem = build_problem(mesh.view(), model, features, overlap, stations, test::context(1));
-  const std::uint64_t bytes = problem.constraints[0].costs.size() * (sizeof(double) + sizeof(float));
-  RunContext enough({.threads = 1, .memory_budget = bytes}), short_of({.threads = 1, .memory_budget = bytes - 1});
-  EXPECT_EQ(build_problem(mesh.view(), model, features, overlap, stations, enough).constraints[0].costs,
-            problem.constraints[0].costs);
-  try {
-    build_problem(mesh.view(), model, features, overlap, stations, short_of);
-    ADD_FAILURE() << "not refused";
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), ::testing::AllOf(::testing::HasSubstr(":8:3: "), ::testing::HasSubstr("'r1'"),
-                                               ::testing::HasSubstr("need " + std::to_string(bytes) + " bytes"),
-                                               ::testing::HasSubstr("max_candidates")));
-  }
 }
 
 }  // namespace
