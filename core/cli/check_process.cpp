@@ -174,7 +174,7 @@ class ReportSink final : public VerdictSink {
  public:
   void begin(const std::string& check) override { line({{"begin", check}}); }
   void on(const std::string& input) override { line({{"on", input}}); }
-  void end(const Verdict& verdict) override {
+  void end(const CheckVerdict& verdict) override {
     const char* outcome = verdict.outcome == Outcome::passed   ? "ok"
                           : verdict.outcome == Outcome::failed ? "fail"
                                                                : "skip";
@@ -195,11 +195,11 @@ class ReportSink final : public VerdictSink {
 
 }  // namespace
 
-std::vector<Verdict> examine_in_process(const fs::path& library, const Context& context) {
+std::vector<CheckVerdict> examine_in_process(const fs::path& library, const Context& context) {
   const TemporaryFolder folder;
   const std::string output = folder.file("output");
   Child child({own_program(), "plugins", "check", "--child", library.string()}, output, folder, context);
-  std::vector<Verdict> verdicts;
+  std::vector<CheckVerdict> verdicts;
   std::string line, begun = "start", on;
   bool done = false;
   Child::Read read = Child::Read::end;
@@ -226,7 +226,7 @@ std::vector<Verdict> examine_in_process(const fs::path& library, const Context& 
   return verdicts;
 }
 
-Verdict examine_memory(const fs::path& library, [[maybe_unused]] const Context& context) {
+CheckVerdict examine_memory(const fs::path& library, [[maybe_unused]] const Context& context) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return {
       "memory", Outcome::skipped,

@@ -13,10 +13,10 @@ namespace toposcope::cli {
 /// Runs the conformance kit on one plugin in a process of its own, so that a crash is a verdict and not the end. What
 /// it started ends with it, and what it left in the folder of temporary files is removed.
 /// \param context  asked whether to stop \throw Error  interrupted
-std::vector<Verdict> examine_in_process(const std::filesystem::path& library, const Context& context);
+std::vector<CheckVerdict> examine_in_process(const std::filesystem::path& library, const Context& context);
 
 /// The same inputs once more under valgrind: one verdict, "memory"; skipped where valgrind is not installed.
-Verdict examine_memory(const std::filesystem::path& library, const Context& context);
+CheckVerdict examine_memory(const std::filesystem::path& library, const Context& context);
 
 /// The other end: examines in this process and reports to file descriptor 3. \return the exit code
 int examine_here(const std::filesystem::path& library, bool brief);

@@ -29,11 +29,11 @@ struct CheckOptions {
 struct Checked {
   std::string id, version, kind;
   fs::path library;
-  std::vector<Verdict> verdicts;
+  std::vector<CheckVerdict> verdicts;
 
   bool passes() const {
     return std::none_of(verdicts.begin(), verdicts.end(),
-                        [](const Verdict& v) { return v.outcome == Outcome::failed; });
+                        [](const CheckVerdict& v) { return v.outcome == Outcome::failed; });
   }
 };
 
@@ -85,7 +85,7 @@ const char* word(Outcome outcome) {
 void show(const Checked& plugin) {
   say("{}{}{}{}\n", plugin.id, plugin.version.empty() ? "" : " " + plugin.version,
       plugin.kind.empty() ? "" : " (" + plugin.kind + ")", ": " + plugin.library.string());
-  for (const Verdict& verdict : plugin.verdicts)
+  for (const CheckVerdict& verdict : plugin.verdicts)
     say("  {:<5} {:<17} {}\n", word(verdict.outcome), verdict.check, verdict.detail);
   flush_output();
 }
@@ -101,7 +101,7 @@ int plugins_check(const CheckOptions& options) {
     if (plugin.verdicts.empty()) {
       plugin.verdicts = examine_in_process(fs::absolute(plugin.library), context);
       const bool ran = std::none_of(plugin.verdicts.begin(), plugin.verdicts.end(),
-                                    [](const Verdict& v) { return v.check == "run"; });  // it lacks a program
+                                    [](const CheckVerdict& v) { return v.check == "run"; });  // it lacks a program
       if (options.valgrind && ran && plugin.passes())
         plugin.verdicts.push_back(examine_memory(fs::absolute(plugin.library), context));
     }
@@ -111,7 +111,7 @@ int plugins_check(const CheckOptions& options) {
       continue;
     }
     nlohmann::ordered_json checks = nlohmann::json::array();
-    for (const Verdict& verdict : plugin.verdicts)
+    for (const CheckVerdict& verdict : plugin.verdicts)
       checks.push_back({{"check", verdict.check}, {"outcome", word(verdict.outcome)}, {"detail", verdict.detail}});
     root["plugins"].push_back({{"id", plugin.id},
                                {"version", plugin.version},

@@ -8,7 +8,7 @@ namespace toposcope {
 enum class Outcome { passed, failed, skipped };
 
 /// What one check of the conformance kit found.
-struct Verdict {
+struct CheckVerdict {
   std::string check;  ///< its name: "manifest", "rotation", ...
   Outcome outcome = Outcome::passed;
   std::string detail;  ///< one line: what was tried, or what is wrong and where
@@ -22,7 +22,7 @@ class VerdictSink {
   virtual void begin(const std::string& check) = 0;
   /// Within a check, the input that the plugin is about to get; from any thread.
   virtual void on(const std::string& input) = 0;
-  virtual void end(const Verdict& verdict) = 0;
+  virtual void end(const CheckVerdict& verdict) = 0;
 };
 
 }  // namespace toposcope

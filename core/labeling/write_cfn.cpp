@@ -33,9 +33,9 @@ class Names {
   std::set<std::string> used_;
 };
 
-class Writer {
+class CfnWriter {
  public:
-  Writer(const LabelingProblem& problem, double upper_bound, bool maximize, const std::function<bool()>& stop)
+  CfnWriter(const LabelingProblem& problem, double upper_bound, bool maximize, const std::function<bool()>& stop)
       : problem_(problem), sign_(maximize ? -1 : 1), stop_(stop), functions_(cost_functions(problem)) {
     find_bounds(upper_bound);
   }
@@ -174,7 +174,7 @@ class Writer {
 WrittenProblem write_cfn(const LabelingProblem& problem, double upper_bound, bool maximize,
                          const std::function<bool()>& stop) {
   check(problem);
-  return Writer(problem, upper_bound, maximize, stop).write();
+  return CfnWriter(problem, upper_bound, maximize, stop).write();
 }
 
 }  // namespace toposcope

@@ -11,9 +11,10 @@
 namespace toposcope {
 namespace {
 
-class Writer {
+class WcspWriter {
  public:
-  Writer(const LabelingProblem& problem, double upper_bound) : problem_(problem), functions_(cost_functions(problem)) {
+  WcspWriter(const LabelingProblem& problem, double upper_bound)
+      : problem_(problem), functions_(cost_functions(problem)) {
     find_scale(upper_bound);
   }
 
@@ -96,7 +97,7 @@ class Writer {
 
 WrittenProblem write_wcsp(const LabelingProblem& problem, double upper_bound) {
   check(problem);
-  return Writer(problem, upper_bound).write();
+  return WcspWriter(problem, upper_bound).write();
 }
 
 }  // namespace toposcope

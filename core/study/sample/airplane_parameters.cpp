@@ -10,17 +10,17 @@ namespace toposcope {
 
 namespace {
 
-constexpr const char* kind = "airplane";
+constexpr const char* airplane_name = "airplane";
 
 void check_surface(const Airplane& a, const Planform& p, const std::string& name, const char* span) {
   const double chord = std::max(p.root_chord, p.tip_chord);
-  require(p.tip_chord <= 1.2 * p.root_chord, kind, name + "_tip_chord", p.tip_chord,
+  require(p.tip_chord <= 1.2 * p.root_chord, airplane_name, name + "_tip_chord", p.tip_chord,
           "it may exceed the root's chord by a fifth at most", "give a smaller one");
-  require(std::abs(p.sweep) <= 65 * pi / 180, kind, name + "_sweep", p.sweep * 180 / pi,
+  require(std::abs(p.sweep) <= 65 * pi / 180, airplane_name, name + "_sweep", p.sweep * 180 / pi,
           "it must lie between -65 and 65 degrees", "choose it in that range");
-  require(p.span >= 0.6 * chord, kind, name + span, p.span, "it must exceed 0.6 chords", "give a longer one");
+  require(p.span >= 0.6 * chord, airplane_name, name + span, p.span, "it must exceed 0.6 chords", "give a longer one");
   const double thinnest = p.trailing * p.thickness * p.tip_chord;
-  require(thinnest >= 0.002 * a.length, kind, name + "_tip_chord", p.tip_chord,
+  require(thinnest >= 0.002 * a.length, airplane_name, name + "_tip_chord", p.tip_chord,
           "the trailing edge at the tip, trailing_edge * thickness * chord, must be at least 0.2 % of length thick",
           "give a larger one");
 }
@@ -147,87 +147,87 @@ SampleKind airplane_kind() {
 }
 
 void check_airplane(const Airplane& a) {
-  require(a.radius <= 0.2 * a.length && a.radius >= 0.02 * a.length, kind, "fuselage_radius", a.radius,
+  require(a.radius <= 0.2 * a.length && a.radius >= 0.02 * a.length, airplane_name, "fuselage_radius", a.radius,
           "it must lie between 0.02 and 0.2 length", "choose it in that range");
-  require(a.nose + a.tail <= 0.9 * a.length, kind, "tail_length", a.tail,
+  require(a.nose + a.tail <= 0.9 * a.length, airplane_name, "tail_length", a.tail,
           "nose and tail must leave a tenth of the fuselage straight", "give a shorter one");
-  require(a.nose >= 0.6 * a.radius, kind, "nose_length", a.nose, "it must be at least 0.6 fuselage_radius",
+  require(a.nose >= 0.6 * a.radius, airplane_name, "nose_length", a.nose, "it must be at least 0.6 fuselage_radius",
           "give a longer one");
-  require(a.tail >= 2 * a.radius, kind, "tail_length", a.tail, "it must be at least 2 fuselage_radius",
+  require(a.tail >= 2 * a.radius, airplane_name, "tail_length", a.tail, "it must be at least 2 fuselage_radius",
           "give a longer one");
-  require(a.tail_radius <= 0.6 * a.radius && a.tail_radius >= 0.1 * a.radius, kind, "tail_radius",
+  require(a.tail_radius <= 0.6 * a.radius && a.tail_radius >= 0.1 * a.radius, airplane_name, "tail_radius",
           a.tail_radius, "it must lie between 0.1 and 0.6 fuselage_radius", "choose it in that range");
   check_surface(a, a.wing, "wing", "_span");
   check_surface(a, a.stabilizer, "stabilizer", "_span");
   check_surface(a, a.fin, "fin", "_height");
-  require(a.fillet >= 0.05 * a.radius && a.fillet <= 0.6 * a.radius, kind, "fillet", a.fillet,
+  require(a.fillet >= 0.05 * a.radius && a.fillet <= 0.6 * a.radius, airplane_name, "fillet", a.fillet,
           "it must lie between 0.05 and 0.6 fuselage_radius", "choose it in that range");
-  require(std::abs(a.wing_height) <= 0.8 * a.radius, kind, "wing_height", a.wing_height,
+  require(std::abs(a.wing_height) <= 0.8 * a.radius, airplane_name, "wing_height", a.wing_height,
           "the wing must meet the fuselage: at most 0.8 fuselage_radius from its axis", "bring it closer");
-  require(a.wing.span >= 3 * a.radius, kind, "wing_span", 2 * a.wing.span,
+  require(a.wing.span >= 3 * a.radius, airplane_name, "wing_span", 2 * a.wing.span,
           "it must be at least 6 fuselage_radius", "give longer wings");
-  require(std::abs(a.wing.v.z()) <= 0.35, kind, "wing_dihedral", std::asin(a.wing.v.z()) * 180 / pi,
+  require(std::abs(a.wing.v.z()) <= 0.35, airplane_name, "wing_dihedral", std::asin(a.wing.v.z()) * 180 / pi,
           "it must lie within 20 degrees", "give a smaller one");
-  require(std::abs(a.stabilizer.v.z()) <= 0.5, kind, "stabilizer_dihedral",
+  require(std::abs(a.stabilizer.v.z()) <= 0.5, airplane_name, "stabilizer_dihedral",
           std::asin(a.stabilizer.v.z()) * 180 / pi, "it must lie within 30 degrees", "give a smaller one");
   const double wing_end = a.wing_position + a.wing.root_chord;
-  require(a.wing_position >= 0.6 * a.nose, kind, "wing_position", a.wing_position,
+  require(a.wing_position >= 0.6 * a.nose, airplane_name, "wing_position", a.wing_position,
           "the wing must begin behind the nose (0.6 nose_length)", "move it back");
-  require(a.fin_position + a.fin.root_chord <= a.length, kind, "fin_position", a.fin_position,
+  require(a.fin_position + a.fin.root_chord <= a.length, airplane_name, "fin_position", a.fin_position,
           "the fin's root must end before the fuselage does", "move it forward");
-  require(a.fin_position >= wing_end + 2.2 * a.fillet, kind, "fin_position", a.fin_position,
+  require(a.fin_position >= wing_end + 2.2 * a.fillet, airplane_name, "fin_position", a.fin_position,
           "the fin must begin behind the wing, by 2.2 fillets", "move the wing forward or the fin back");
-  require(a.fin.span >= a.radius + a.fillet + 0.5 * a.fin.tip_chord, kind, "fin_height", a.fin.span,
+  require(a.fin.span >= a.radius + a.fillet + 0.5 * a.fin.tip_chord, airplane_name, "fin_height", a.fin.span,
           "it must stand out of the fuselage by half a tip chord", "give a higher one");
   const double half_thick = a.stabilizer.thickness * a.stabilizer.root_chord / 2;
   if (!a.t_tail) {
-    require(a.stabilizer_position >= wing_end + 2.2 * a.fillet, kind, "stabilizer_position",
+    require(a.stabilizer_position >= wing_end + 2.2 * a.fillet, airplane_name, "stabilizer_position",
             a.stabilizer_position, "the stabiliser must begin behind the wing, by 2.2 fillets",
             "move the wing forward or the stabiliser back");
-    require(a.stabilizer_position + a.stabilizer.root_chord <= a.length, kind, "stabilizer_position",
+    require(a.stabilizer_position + a.stabilizer.root_chord <= a.length, airplane_name, "stabilizer_position",
             a.stabilizer_position, "the stabiliser's root must end before the fuselage does", "move it forward");
-    require(std::abs(a.stabilizer.origin.z()) <= 0.6 * a.fuselage_radius(a.stabilizer_position), airplane_kind,
+    require(std::abs(a.stabilizer.origin.z()) <= 0.6 * a.fuselage_radius(a.stabilizer_position), airplane_name,
             "stabilizer_height", a.stabilizer.origin.z(), "the stabiliser must meet the fuselage",
             "bring it closer to 0");
   } else {
-    require(a.stabilizer.origin.z() - half_thick >= a.radius + 2.2 * a.fillet, kind, "fin_height", a.fin.span,
+    require(a.stabilizer.origin.z() - half_thick >= a.radius + 2.2 * a.fillet, airplane_name, "fin_height", a.fin.span,
             "the fin must lift the T-tail's stabiliser clear of the fuselage", "give a higher fin");
   }
-  require(a.stabilizer.span >= 1.5 * a.radius || a.t_tail, kind, "stabilizer_span", 2 * a.stabilizer.span,
+  require(a.stabilizer.span >= 1.5 * a.radius || a.t_tail, airplane_name, "stabilizer_span", 2 * a.stabilizer.span,
           "it must be at least 3 fuselage_radius", "give a longer one");
   if (a.engines == 0) return;
-  require(a.engines == 2 || a.engines == 4, kind, "engines", a.engines, "it must be 0, 2 or 4",
+  require(a.engines == 2 || a.engines == 4, airplane_name, "engines", a.engines, "it must be 0, 2 or 4",
           "choose one of them");
-  require(a.engine_length >= 3 * a.engine_radius, kind, "engine_length", a.engine_length,
+  require(a.engine_length >= 3 * a.engine_radius, airplane_name, "engine_length", a.engine_length,
           "it must be at least 3 engine_radius", "give a longer one");
-  require(a.engine_radius >= 0.012 * a.length && a.engine_radius <= 0.8 * a.radius, kind, "engine_radius",
+  require(a.engine_radius >= 0.012 * a.length && a.engine_radius <= 0.8 * a.radius, airplane_name, "engine_radius",
           a.engine_radius, "it must lie between 0.012 length and 0.8 fuselage_radius", "choose it in that range");
   if (a.rear_engines) {
-    require(a.engines == 2, kind, "engines", a.engines, "at the rear there may be two", "give engines=2");
-    require(a.engine_drop >= 2.2 * a.engine_radius && a.engine_drop <= 4 * a.engine_radius, airplane_kind,
+    require(a.engines == 2, airplane_name, "engines", a.engines, "at the rear there may be two", "give engines=2");
+    require(a.engine_drop >= 2.2 * a.engine_radius && a.engine_drop <= 4 * a.engine_radius, airplane_name,
             "engine_drop", a.engine_drop, "at the rear it must lie between 2.2 and 4 engine_radius",
             "choose it in that range");
-    require(engine_gap(a) >= 0.7 * a.engine_radius, kind, "engine_length", a.engine_length,
+    require(engine_gap(a) >= 0.7 * a.engine_radius, airplane_name, "engine_length", a.engine_length,
             "engines at the rear must clear wing and tail by 0.7 engine_radius",
             "give shorter ones, a lower or less swept wing, or more room between wing and tail");
     return;
   }
   const double station = a.engine_station * a.wing.span, outermost = station * (a.engines / 2);
-  require(station >= a.radius + a.engine_radius + a.fillet, kind, "engine_station", a.engine_station,
+  require(station >= a.radius + a.engine_radius + a.fillet, airplane_name, "engine_station", a.engine_station,
           "the engines must clear the fuselage", "move them outwards");
-  require(outermost <= 0.85 * a.wing.span, kind, "engine_station", a.engine_station,
+  require(outermost <= 0.85 * a.wing.span, airplane_name, "engine_station", a.engine_station,
           "the outermost engines must lie within 0.85 of the half span", "move them inwards");
-  require(a.engines == 2 || station >= 2.5 * a.engine_radius, kind, "engine_station", a.engine_station,
+  require(a.engines == 2 || station >= 2.5 * a.engine_radius, airplane_name, "engine_station", a.engine_station,
           "two engines under a wing must clear each other", "move them outwards");
   const double half_wing = a.wing.thickness * a.wing.chord(station) / 2;
   const bool on_wing = a.engine_drop <= 0.8 * a.engine_radius;
   const bool on_pylon = a.engine_drop >= 2.2 * a.engine_radius + half_wing && a.engine_drop <= 6 * a.engine_radius;
-  require(on_wing || on_pylon, kind, "engine_drop", a.engine_drop,
+  require(on_wing || on_pylon, airplane_name, "engine_drop", a.engine_drop,
           "the engine must sit in the wing (at most 0.8 engine_radius) or hang clear of it (from 2.2 engine_radius "
           "and half the wing's thickness, here " +
               std::to_string(2.2 * a.engine_radius + half_wing) + ", to 6 engine_radius)",
           "choose it so");
-  require(a.engine_length <= 1.2 * a.wing.chord(outermost) + 0.2 * a.wing.root_chord, kind, "engine_length",
+  require(a.engine_length <= 1.2 * a.wing.chord(outermost) + 0.2 * a.wing.root_chord, airplane_name, "engine_length",
           a.engine_length, "the engines must be about as long as the wing's chord at most", "give shorter ones");
 }
 

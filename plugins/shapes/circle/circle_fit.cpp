@@ -20,10 +20,6 @@ constexpr int iteration_limit = 200;
 constexpr std::size_t search_points = 80;
 const double median_to_sd = 1 / std::sqrt(2 * std::log(2.0));  // of the length of two normal components
 
-double squared_distance(const Circle& circle, const Vec3& point) {
-  return offset(circle, point).squared();
-}
-
 /// Two residuals per point, e / sqrt(1 + |e|^2 / c^2): the least squares of them is Geman and McClure's robust sum. The
 /// solver gets seven in their stead, a square root of the normal equations, which is all that it makes of residuals.
 class RobustResiduals {

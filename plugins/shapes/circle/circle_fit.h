@@ -34,6 +34,11 @@ inline Offset offset(const Circle& circle, const Vec3& point) {
   return {(arm - height * circle.normal).norm() - circle.radius, height};
 }
 
+/// Of a point from the circle, squared mesh units.
+inline double squared_distance(const Circle& circle, const Vec3& point) {
+  return offset(circle, point).squared();
+}
+
 /// Derivative of (radial, height) by the centre, by a change of the normal along `u` and along `v`, and by the radius.
 /// \param u, v  perpendicular to the normal, of any length
 inline Eigen::Matrix<double, 2, 6> offset_derivative(const Circle& circle, const Vec3& u, const Vec3& v,

@@ -16,10 +16,6 @@ namespace {
 constexpr int search_triples = 60;  // with 30 % outliers all triples are spoilt once in 1e11
 constexpr double quantile = 0.65;   // so many points at least belong to the circle
 
-double squared_distance(const Circle& circle, const Vec3& point) {
-  return offset(circle, point).squared();
-}
-
 /// Taubin's algebraic fit in the least-squares plane of the points, by Newton's method on its characteristic
 /// polynomial (Chernov 2010, section 5.9). Radius 0 where there is none.
 Circle algebraic_fit(std::span<const Vec3> points) {
