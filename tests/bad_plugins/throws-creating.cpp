@@ -17,5 +17,5 @@ TOPOSCOPE_PLUGIN(ShapeFitter, ThrowsCreating,
                   .version = "1.0.0",
                   .summary = "The centroid of the points",
                   .min_arity = 1,
-                  .dimension = 0,
-                  .max_arity = 1})
+                  .max_arity = 1,
+                  .dimension = 0})

@@ -21,5 +21,5 @@ TOPOSCOPE_PLUGIN(ShapeFitter, ThrowsRunning,
                   .version = "1.0.0",
                   .summary = "The centroid of the points",
                   .min_arity = 1,
-                  .dimension = 0,
-                  .max_arity = 1})
+                  .max_arity = 1,
+                  .dimension = 0})
