@@ -89,15 +89,20 @@ class SignalsToTheCaller final : public tbb::task_scheduler_observer {
   }
 };
 
+/// oneTBB makes no more threads than cores unless told to, before there is an arena.
+std::unique_ptr<tbb::global_control> more_than_cores(unsigned threads) {
+  if (threads <= machine_threads()) return nullptr;
+  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+}
+
 }  // namespace
 
 struct RunContext::State {
   explicit State(RunSettings given)
       : settings(std::move(given)),
         threads(settings.threads == 0 ? machine_threads() : settings.threads),
+        more_threads(more_than_cores(threads)),
         arena(static_cast<int>(threads)) {
-    // oneTBB makes no more threads than cores unless told to.
-    if (threads > machine_threads()) more_threads.emplace(tbb::global_control::max_allowed_parallelism, threads);
     if (settings.time_limit_s)
       deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                     std::chrono::duration<double>(std::clamp(*settings.time_limit_s, 0.0, 1e9)));
@@ -105,9 +110,9 @@ struct RunContext::State {
 
   RunSettings settings;
   unsigned threads;
+  std::unique_ptr<tbb::global_control> more_threads;
   tbb::task_arena arena;
   SignalsToTheCaller signals{arena};
-  std::optional<tbb::global_control> more_threads;
   std::optional<Clock::time_point> deadline;
   std::atomic<bool> cancelled = false;
   std::mutex callbacks;

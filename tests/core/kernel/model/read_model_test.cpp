@@ -74,6 +74,7 @@ TEST_F(ReadModel, TakesTheShortFormOfLineGroups) {
   for (const char* shape : {"shape: lgrp3", "shape: {plugin: lgrp3}", "shape: {plugin: line-group, segments: 3}"}) {
     std::string text = sound_model;
     text.replace(text.find("shape: plane"), 12, shape);
+    text.replace(text.find("realises: floor"), 15, "realises: edgeLine");
     const Model model = model_from_text(text, "m.yaml", &catalog_);
     EXPECT_EQ(model.features[2].shape.plugin, "line-group") << shape;
     EXPECT_EQ(model.features[2].shape.arguments[0], (std::pair<std::string, std::string>{"segments", "3"})) << shape;

@@ -200,7 +200,7 @@ TEST_F(Pipeline, OverridesAPluginThatThePipelineDoesNotName) {
 }
 
 TEST_F(Pipeline, WrongOverrides) {
-  EXPECT_THAT(set_error("worksets.rings"), HasSubstr("has no '='"));
+  EXPECT_THAT(set_error("worksets.rings"), HasSubstr("is no assignment"));
   EXPECT_THAT(set_error("rings=3"), HasSubstr("does not name station and option"));
   EXPECT_THAT(set_error("workset.rings=3"), AllOf(HasSubstr("no station 'workset'"), HasSubstr("'worksets'?")));
   EXPECT_THAT(set_error("shapes.method=powell"), HasSubstr("name one"));
