@@ -29,8 +29,7 @@ struct Fitter final : ShapeFitter {
     if (!solver.isInvertible()) return shape;
     const Eigen::Vector4d solved = solver.solve(system.col(4));
     const double radius = unit * std::sqrt(solved[3] + solved.head<3>().squaredNorm());
-    shape.centroid = mean + unit * solved.head<3>();
-    const Vec3& c = shape.centroid;
+    const Vec3 c = shape.centroid = mean + unit * solved.head<3>();
     shape.parameters = {{"center", 3, {c.x(), c.y(), c.z()}}, {"radius", 1, {radius}}};
     double squares = 0, area = 0;
     for (const Vec3& point : input.points) squares += std::pow(distance(shape, point), 2);

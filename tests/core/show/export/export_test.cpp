@@ -145,7 +145,7 @@ print(json.dumps({'error': reader.GetErrorCode(), 'bounds': data.GetBounds(), 'l
 }
 
 TEST(SlicerMarkups, KeepToTheirSchema) {
-  const fs::path schema = fs::path(TOPOSCOPE_SOURCE_DIR) / "tests/core/export/slicer-markups.schema.json";
+  const fs::path schema = fs::path(TOPOSCOPE_SOURCE_DIR) / "tests/core/show/export/slicer-markups.schema.json";
   for (const std::string kind : {"cup", "airplane"}) {
     const std::string text = test::read_text(results() / kind / "features.mrk.json");
     EXPECT_EQ(test::schema_file_faults(schema, text), "");
