@@ -66,6 +66,19 @@ std::string_view chunk(const FileText& file, std::size_t at, std::string_view ty
   return file.bytes.substr(at + 8, length);
 }
 
+/// Spaces pad the JSON; some programs take zeros.
+std::string_view without_padding(std::string_view json) {
+  const std::size_t last = json.find_last_not_of('\0');
+  return json.substr(0, last == json.npos ? 0 : last + 1);
+}
+
+/// Chunks are multiples of four bytes. Of programs that do not keep to it, some write the next chunk right behind, some
+/// where it should be.
+std::size_t after_chunk(const FileText& file, std::size_t end) {
+  const bool right_behind = file.bytes.substr(std::min(end + 4, file.bytes.size()), 4) == std::string_view("BIN\0", 4);
+  return right_behind ? end : (end + 3) / 4 * 4;
+}
+
 }  // namespace
 
 GltfValue GltfValue::operator[](const std::string& key) const {
@@ -125,8 +138,8 @@ GltfDocument read_gltf_document(const FileText& file) {
       fail_at(file.name, {4, MeshFilePlace::Unit::byte},
               "glTF of version " + std::to_string(version) + " cannot be read; export version 2");
     const std::string_view text = chunk(file, header, "JSON");
-    document.json = parse(file, text, header + chunk_header);
-    const std::size_t next = header + chunk_header + (text.size() + 3) / 4 * 4;
+    document.json = parse(file, without_padding(text), header + chunk_header);
+    const std::size_t next = after_chunk(file, header + chunk_header + text.size());
     if (next + chunk_header <= file.bytes.size()) document.binary = chunk(file, next, {"BIN\0", 4});
   }
   const GltfValue root(file.name, document.json, "");

@@ -7,6 +7,7 @@
 #include "io/extension.h"
 #include "io/file_bytes.h"
 #include "io/readers.h"
+#include "io/unicode.h"
 
 namespace toposcope {
 namespace {
@@ -19,14 +20,7 @@ bool begins_with_off(std::string_view bytes) {
          word.substr(0, word.size() - 3).find_first_not_of("STCN4n") == word.npos;
 }
 
-}  // namespace
-
-TriangleSoup read_soup(std::string_view bytes, const std::filesystem::path& path) {
-  FileText file{path.string(), bytes};
-  if (bytes.empty()) throw MeshError(file.name + ": the file is empty");
-  if (bytes.starts_with("\xEF\xBB\xBF")) file.bytes.remove_prefix(3);  // byte order mark of UTF-8
-
-  const std::string extension = lower_extension(path);
+TriangleSoup read_by_format(const FileText& file, const std::string& extension) {
   if (file.bytes.starts_with("ply")) return read_ply(file);
   if (file.bytes.starts_with("glTF")) return read_gltf(file);
   if (begins_with_off(file.bytes)) return read_off(file);
@@ -38,6 +32,22 @@ TriangleSoup read_soup(std::string_view bytes, const std::filesystem::path& path
   if (is_binary_stl(file.bytes) || file.bytes.starts_with("solid ")) return read_stl(file);
   throw MeshError(file.name + ": the format is told neither by the content nor by the extension '" + extension +
                   "'; use .ply, .obj, .stl, .off, .glb or .gltf");
+}
+
+}  // namespace
+
+TriangleSoup read_soup(std::string_view bytes, const std::filesystem::path& path) {
+  FileText file{path.string(), bytes};
+  if (bytes.empty()) throw MeshError(file.name + ": the file is empty");
+  std::string decoded;
+  if (is_binary_stl(bytes)) {  // its header may be anything, a byte order mark too
+  } else if (bytes.starts_with("\xEF\xBB\xBF")) {
+    file.bytes.remove_prefix(3);
+  } else if (has_utf16_mark(bytes)) {
+    decoded = utf8_of_utf16(bytes);
+    file.bytes = decoded;
+  }
+  return read_by_format(file, lower_extension(path));
 }
 
 TriangleSoup read_soup(const std::filesystem::path& path) {

@@ -61,6 +61,9 @@ class SceneReader {
     } else if (root_.has("meshes")) {
       for (std::size_t i = 0, count = root_["meshes"].size(); i < count; ++i) add_mesh(i, as_it_is);
     }
+    if (points_and_lines_ > 0 && surfaces_ == 0)
+      root_.fail("holds points or lines only (" + std::to_string(points_and_lines_) +
+                 " primitives) and no triangle; mesh the points first, or export the surface");
     return builder_.finish();
   }
 
@@ -117,6 +120,7 @@ class SceneReader {
       spend(1, primitive);
       const std::size_t mode = primitive.whole("mode", triangles);
       if (mode > fan) primitive.fail("has mode " + std::to_string(mode) + ", but glTF knows 0 to 6");
+      ++(mode >= triangles ? surfaces_ : points_and_lines_);
       if (mode >= triangles) add_primitive(primitive, mode, transform, first_vertex);
     }
   }
@@ -183,6 +187,7 @@ class SceneReader {
   GltfBuffers buffers_;
   SoupBuilder builder_;
   std::size_t spent_ = 0;
+  std::size_t surfaces_ = 0, points_and_lines_ = 0;  ///< primitives seen
 };
 
 }  // namespace
