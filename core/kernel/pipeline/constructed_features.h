@@ -23,7 +23,7 @@ struct CandidateCount {
   std::size_t groups = 0;        ///< groups of working sets of the right types
   std::size_t boxed_out = 0;     ///< could not meet the ranges, by their boxes
   std::size_t unusable = 0;      ///< the fit failed or is degenerate
-  std::size_t out_of_range = 0;  ///< a parameter outside the model's range
+  std::size_t out_of_range = 0;  ///< a measure outside the model's range
   std::size_t poor_fit = 0;      ///< fit error beyond max_fit_error
   std::size_t beaten = 0;        ///< the same as a better one, or beyond the number of candidates kept
   std::size_t kept = 0;

@@ -11,7 +11,7 @@ namespace toposcope {
 /// The station *relate*: the labelling problem of a mesh. Variable i is model feature i, constraint i relationship i.
 /// \param known  of the same run, with fewer candidates: where those of a relationship's features are the same, so is
 ///               its table
-/// \throw UsageError  a relationship's table would be too large; PluginError  a relation threw
+/// \throw UsageError  a relationship's table, or all together, would be too large; PluginError  a relation threw
 LabelingProblem relate(const ModelRun& run, const MeasuredWorkingSets& sets, const ConstructedFeatures& features,
                        const LabelingProblem* known = nullptr);
 

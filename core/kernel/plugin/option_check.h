@@ -25,7 +25,8 @@ OptionValue check_option(std::span<const OptionRow> table, std::string_view name
 std::vector<OptionValue> check_options(std::span<const OptionRow> table, std::span<const GivenOption> given,
                                        const std::string& owner);
 
-/// Is every value at most what its row says that it may not exceed? \throw UsageError  names both, and the remedy
+/// Refuses a value that exceeds the one that its row names in `not_above`.
+/// \throw UsageError  names both, and the remedy
 void check_order(std::span<const OptionRow> table, std::span<const OptionValue> values, const std::string& owner);
 
 /// Is the table itself sound? Names, bounds in order, defaults within them.
