@@ -5,6 +5,7 @@ cmake_minimum_required(VERSION 3.25)
 set(folder ${BUILD}/sdk_test)
 set(prefix ${folder}/prefix)
 set(program ${prefix}/bin/toposcope)
+set(warnings "-Wall -Wextra -Wpedantic -Werror")
 # Nothing of this tree: plugins and resources are those of the prefix.
 unset(ENV{TOPOSCOPE_PLUGIN_PATH})
 unset(ENV{TOPOSCOPE_DATA_PATH})
@@ -38,6 +39,6 @@ endmacro()
 # configure_and_build(SOURCE BINARY [OPTION...]) as an author would, all warnings on.
 function(configure_and_build source binary)
   check(${CMAKE_COMMAND} -S ${source} -B ${binary} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_PREFIX_PATH=${prefix}
-    "-DCMAKE_CXX_FLAGS=${FLAGS} -Wall -Wextra -Wpedantic -Werror" ${ARGN})
+    "-DCMAKE_CXX_FLAGS=${FLAGS} ${warnings}" ${ARGN})
   check(${CMAKE_COMMAND} --build ${binary} --parallel 2)
 endfunction()

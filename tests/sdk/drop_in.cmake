@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # A plugin dropped into the plugin folder of the installed program changes the result, nothing is built again, and the
-# report says which plugin made it. Takes the filter that test sdk_new_filter has built.
+# report says which plugin made it. Takes the filter that the tutorial has built.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(here ${folder}/drop_in)
-set(built ${folder}/new/my-filter/build/plugins/filters)
+set(built ${folder}/tutorials/filter/my-filter/build/plugins/filters)
 file(REMOVE_RECURSE ${here})
 file(MAKE_DIRECTORY ${here})
 check(${CMAKE_COMMAND} -E copy_directory ${prefix} ${here}/prefix)

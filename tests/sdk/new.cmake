@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# `plugins new`: what it writes builds, passes its own test and the conformance kit, and is loaded as it stands; with -DKIND.
+# `plugins new`: what it writes is short and whole and is loaded as it stands; what it refuses. With -DKIND. The same plugin
+# has been built and held against its tests by that kind's tutorial.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(here ${folder}/new)
 set(id my-${KIND})
+set(built ${folder}/tutorials/${KIND}/${id}/build)
 file(REMOVE_RECURSE ${here}/${id})
 file(MAKE_DIRECTORY ${here})
 check(${CMAKE_COMMAND} -E chdir ${here} ${program} plugins new ${KIND} ${id})
@@ -22,18 +24,13 @@ foreach(file ${files})
     message(FATAL_ERROR "${file} still has a mark of the template: ${CMAKE_MATCH_0}")
   endif()
 endforeach()
-configure_and_build(${here}/${id} ${here}/${id}/build)
-check(${CMAKE_CTEST_COMMAND} --test-dir ${here}/${id}/build --output-on-failure)
-expect_text("100% tests passed, 0 tests failed out of 2")
-check(${CMAKE_COMMAND} -E chdir ${here}/${id} ${program} plugins check build)
-expect_text("1 pass, 0 fail")
 set(ENV{TOPOSCOPE_PLUGIN_PATH} build)
-check(${CMAKE_COMMAND} -E chdir ${here}/${id} ${program} plugins describe ${id})
+check(${CMAKE_COMMAND} -E chdir ${built}/.. ${program} plugins describe ${id})
 expect_text("${id} 0.1.0")
 unset(ENV{TOPOSCOPE_PLUGIN_PATH})
 # Its page has the table of its options as it is.
 file(READ ${here}/${id}/${id}.md page)
-check(${program} plugins describe ${id} --plugin-dir ${here}/${id}/build --page ${here}/${id}/${id}.md)
+check(${program} plugins describe ${id} --plugin-dir ${built} --page ${here}/${id}/${id}.md)
 file(READ ${here}/${id}/${id}.md renewed)
 if(NOT page STREQUAL renewed)
   message(FATAL_ERROR "the page that the template gives differs from the descriptor:\n${renewed}")

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # docs/guide/tutorials keep their word: the shell blocks of a page, typed one after the other, work; a yaml block is the file that
-# its first line names. Run with -DPAGE=<name>.
+# its first line names. All warnings are on. Run with -DPAGE=<kind>; new.cmake and drop_in.cmake take the plugin that it leaves.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(here ${folder}/tutorials/${PAGE})
 file(REMOVE_RECURSE ${here})
 file(MAKE_DIRECTORY ${here})
 file(READ ${SOURCE}/docs/guide/tutorials/${PAGE}.md page)
-set(script "set -eu\nexport PATH=${prefix}/bin:$PATH CXXFLAGS='${FLAGS}'\ncd ${here}\n")
+set(script "set -eu\nexport PATH=${prefix}/bin:$PATH CXXFLAGS='${FLAGS} ${warnings}'\ncd ${here}\n")
 set(blocks 0)
 while(page MATCHES "\n```(sh|yaml)\n")
   set(language ${CMAKE_MATCH_1})
@@ -36,4 +36,5 @@ if(blocks LESS 2)
 endif()
 file(WRITE ${here}/script "${script}")
 check(sh ${here}/script)
+expect_text("100% tests passed, 0 tests failed out of 2")
 expect_text("1 pass, 0 fail")

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # One plugin compiled in other ways than the program: with -mavx2 it works, as a debug build or with debug containers it is
-# refused by its fingerprint, with the headers of an older minor (where there is one) it works, with those of a newer one it is refused. Never a
-# crash. Needs -DCXX.
+# refused by its fingerprint, with the headers of an older minor (where there is one) it works, with those of a newer one it
+# is refused. Never a crash. The plugin is a relation: it is handed fitted shapes, and compiles fast. Needs -DCXX.
 include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
 set(here ${folder}/variants)
 file(REMOVE_RECURSE ${here})
 file(MAKE_DIRECTORY ${here})
-check(${CMAKE_COMMAND} -E chdir ${here} ${program} plugins new shape odd)
+check(${CMAKE_COMMAND} -E chdir ${here} ${program} plugins new relation odd)
 separate_arguments(flags UNIX_COMMAND "${FLAGS}")
 file(GLOB_RECURSE library_files ${prefix}/lib*/libtoposcope_*.a)
 # As the program was built.
@@ -24,12 +24,12 @@ endfunction()
 set(writer ${prefix}/lib/toposcope/toposcope_write_manifest)
 
 compile(plain ${prefix}/include)
-check(${writer} shapes odd ${here}/plain/odd.so)
+check(${writer} relations odd ${here}/plain/odd.so)
 check(${program} plugins check ${here}/plain)
 expect_text("1 pass, 0 fail")
 
 compile(avx2 ${prefix}/include -mavx2 -mfma)
-check(${writer} shapes odd ${here}/avx2/odd.so)
+check(${writer} relations odd ${here}/avx2/odd.so)
 file(READ /proc/cpuinfo processor)
 if(processor MATCHES " avx2 ")
   check(${program} plugins check ${here}/avx2)
@@ -40,11 +40,11 @@ endif()
 
 # refused(NAME WORDS): neither does its build get a manifest, nor does one that lies help; a run says so and ends with 4.
 function(refused name words)
-  refuse(4 "${words}" ${writer} shapes odd ${here}/${name}/odd.so)
+  refuse(4 "${words}" ${writer} relations odd ${here}/${name}/odd.so)
   configure_file(${here}/plain/odd.plugin.json ${here}/${name}/odd.plugin.json COPYONLY)
   refuse(4 "${words}" ${program} plugins check ${here}/${name})
   file(READ ${prefix}/share/toposcope/models/cup.yaml model)
-  string(REPLACE "shape: plane" "shape: odd" model "${model}")
+  string(REPLACE "type: coplanar" "type: odd" model "${model}")
   file(WRITE ${here}/cup.yaml "${model}")
   refuse(4 "${words}" ${program} run ${folder}/cup.ply --model ${here}/cup.yaml --plugin-dir ${here}/${name})
 endfunction()
@@ -72,7 +72,7 @@ endfunction()
 file(STRINGS ${prefix}/include/toposcope/plugin.h minor_line REGEX "abi_minor = [1-9]")
 if(minor_line)
   other_minor(older -1)
-  check(${writer} shapes odd ${here}/older/odd.so)
+  check(${writer} relations odd ${here}/older/odd.so)
   check(${program} plugins check ${here}/older)
   expect_text("ABI ${version}")
   expect_text("1 pass, 0 fail")
