@@ -14,7 +14,7 @@ TOPOSCOPE := $(BUILD)/bin/toposcope
 # Compiling Eigen and Ceres takes about 1 GB a job.
 JOBS ?= $(shell nproc)
 
-.PHONY: all deps configure demo test packages pages docs abi evaluate screenshots bench fuzz format lint clean
+.PHONY: all deps configure demo test packages pages docs abi evaluate screenshots bench fuzz format style lint clean
 all: configure
 	cmake --build $(BUILD) -j $(JOBS)
 
@@ -116,9 +116,16 @@ fuzz: deps
 format:
 	git ls-files '*.cpp' '*.h' | xargs clang-format -i
 
-# Formatting everywhere, and clang-tidy, which cannot read GCC's precompiled headers.
-lint: deps
+# What of lint takes seconds: formatting, the licence on top of every source, scripts that parse.
+style: deps
 	git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run -Werror
+	@! git ls-files '*.cpp' '*.h' '*.cmake' '*CMakeLists.txt' '*.py' 'tests/*.ts' 'web/*.ts' | \
+	  xargs grep -L 'SPDX-License-Identifier' | grep . || { echo 'the SPDX line is missing in these'; exit 1; }
+	git ls-files '*.py' | xargs python3 -c 'import ast, sys; [ast.parse(open(f).read(), f) for f in sys.argv[1:]]'
+	git ls-files scripts .ci | xargs grep -lE '^#!.*\b(ba)?sh$$' | xargs -n 1 bash -n
+
+# Style, and clang-tidy, which cannot read GCC's precompiled headers.
+lint: style
 	@mkdir -p build
 	@cmake --preset lint > build/lint.log 2>&1 || { cat build/lint.log; exit 1; }
 	git ls-files 'core/*.cpp' 'plugins/*.cpp' 'tests/core/*.cpp' 'tests/plugins/*.cpp' 'tests/support/*.cpp' | \
