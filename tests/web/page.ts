@@ -289,10 +289,12 @@ test('axe finds no serious fault, light and dark', async () => {
     for (const path of [scenePage, indexPage]) {
       const opened = await open(browser, path, { colorScheme }), { page } = opened;
       const audit = async (place: string): Promise<void> => {
-        const found = await page.evaluate(async () => {
-          const result = await (window as unknown as { axe: { run(): Promise<{ violations: { id: string; impact: string; nodes: { html: string; failureSummary: string }[] }[] }> } }).axe.run();
+        // What does not hang on colours is the same in the dark.
+        const rules = colorScheme === 'light' ? {} : { runOnly: { type: 'rule', values: ['color-contrast', 'link-in-text-block'] } };
+        const found = await page.evaluate(async (options) => {
+          const result = await (window as unknown as { axe: { run(options: object): Promise<{ violations: { id: string; impact: string; nodes: { html: string; failureSummary: string }[] }[] }> } }).axe.run(options);
           return result.violations.filter(({ impact }) => impact === 'serious' || impact === 'critical').map(({ id, nodes }) => `${id}: ${nodes.map((node) => `${node.html.slice(0, 160)} (${node.failureSummary.slice(0, 200)})`).join(' | ')}`);
-        });
+        }, rules);
         assert.deepEqual(found, [], `${place}, ${colorScheme}`);
       };
       await page.evaluate(axe);
