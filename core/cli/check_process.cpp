@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -193,6 +194,40 @@ class ReportSink final : public VerdictSink {
   }
 };
 
+/// \param valgrind  the program
+CheckVerdict memory_of(const std::vector<fs::path>& libraries, const std::string& valgrind, const Context& context) {
+  const TemporaryFolder folder;
+  const std::string log = folder.file("log");
+  std::vector<std::string> command = {valgrind,
+                                      "--quiet",
+                                      "--leak-check=full",
+                                      "--show-leak-kinds=definite",
+                                      "--errors-for-leak-kinds=definite",
+                                      fmt::format("--error-exitcode={}", memory_errors_exit_code),
+                                      "--log-file=" + log,
+                                      own_program(),
+                                      "plugins",
+                                      "check",
+                                      "--brief",
+                                      "--child"};
+  for (const fs::path& library : libraries) command.push_back(library.string());
+  Child child(std::move(command), folder.file("output"), folder, context);
+  std::string line;
+  bool done = false;
+  Child::Read read = Child::Read::end;
+  while (!done && (read = child.next(line, memory_patience_ms)) == Child::Read::line)
+    done = Json::parse(line).contains("done");
+  if (read == Child::Read::silence) return {"memory", Outcome::failed, "did not come back under valgrind"};
+  int exit_code = 0;
+  const std::string words = child.end(exit_code);
+  if (done && exit_code == 0) return {"memory", Outcome::passed, "under valgrind no leak and no access out of bounds"};
+  if (exit_code != memory_errors_exit_code) return {"memory", Outcome::failed, words + " under valgrind"};
+  std::string what = first_line(log, "lost in loss record");
+  if (what.empty()) what = first_line(log);
+  return {"memory", Outcome::failed,
+          "valgrind: " + what.substr(what.find("== ") == what.npos ? 0 : what.find("== ") + 3)};
+}
+
 }  // namespace
 
 std::vector<CheckVerdict> examine_in_process(const fs::path& library, const Context& context) {
@@ -226,37 +261,27 @@ std::vector<CheckVerdict> examine_in_process(const fs::path& library, const Cont
   return verdicts;
 }
 
-CheckVerdict examine_memory(const fs::path& library, [[maybe_unused]] const Context& context) {
+std::vector<CheckVerdict> examine_memory(const std::vector<fs::path>& libraries,
+                                         [[maybe_unused]] const Context& context) {
+  const auto skipped = [&](const char* why) {
+    return std::vector<CheckVerdict>(libraries.size(), {"memory", Outcome::skipped, why});
+  };
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return {
-      "memory", Outcome::skipped,
-      "valgrind and a sanitizer do not go together; " + library.filename().string() + " was checked by the sanitizer"};
+  return skipped("valgrind and a sanitizer do not go together; the sanitizer checked it");
 #endif
   const auto valgrind = find_program("valgrind");
-  if (!valgrind) return {"memory", Outcome::skipped, "valgrind is not installed (apt-get install valgrind)"};
-  const TemporaryFolder folder;
-  const std::string log = folder.file("log");
-  Child child({valgrind->string(), "--quiet", "--leak-check=full", "--show-leak-kinds=definite",
-               "--errors-for-leak-kinds=definite", fmt::format("--error-exitcode={}", memory_errors_exit_code),
-               "--log-file=" + log, own_program(), "plugins", "check", "--brief", "--child", library.string()},
-              folder.file("output"), folder, context);
-  std::string line;
-  bool done = false;
-  Child::Read read = Child::Read::end;
-  while (!done && (read = child.next(line, memory_patience_ms)) == Child::Read::line)
-    done = Json::parse(line).contains("done");
-  if (read == Child::Read::silence) return {"memory", Outcome::failed, "did not come back under valgrind"};
-  int exit_code = 0;
-  const std::string words = child.end(exit_code);
-  if (done && exit_code == 0) return {"memory", Outcome::passed, "under valgrind no leak and no access out of bounds"};
-  if (exit_code != memory_errors_exit_code) return {"memory", Outcome::failed, words + " under valgrind"};
-  std::string what = first_line(log, "lost in loss record");
-  if (what.empty()) what = first_line(log);
-  return {"memory", Outcome::failed,
-          "valgrind: " + what.substr(what.find("== ") == what.npos ? 0 : what.find("== ") + 3)};
+  if (!valgrind) return skipped("valgrind is not installed (apt-get install valgrind)");
+  std::vector<CheckVerdict> verdicts(libraries.size());
+  if (libraries.size() > 1) {
+    const CheckVerdict together = memory_of(libraries, valgrind->string(), context);
+    if (together.outcome == Outcome::passed) return std::vector<CheckVerdict>(libraries.size(), together);
+  }
+  std::transform(libraries.begin(), libraries.end(), verdicts.begin(),
+                 [&](const fs::path& library) { return memory_of({library}, valgrind->string(), context); });
+  return verdicts;
 }
 
-int examine_here(const fs::path& library, bool brief) {
+int examine_here(const std::vector<fs::path>& libraries, bool brief) {
   // No core file for a crash that is expected, and no machine brought to its knees by a plugin that eats memory.
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
@@ -265,7 +290,7 @@ int examine_here(const fs::path& library, bool brief) {
   if (!brief) setrlimit(RLIMIT_AS, &memory);
 #endif
   ReportSink sink;
-  examine_plugin(library, brief, sink);
+  for (const fs::path& library : libraries) examine_plugin(library, {.brief = brief}, sink);
   sink.done();
   return 0;
 }

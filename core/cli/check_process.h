@@ -15,10 +15,11 @@ namespace toposcope::cli {
 /// \param context  asked whether to stop \throw Error  interrupted
 std::vector<CheckVerdict> examine_in_process(const std::filesystem::path& library, const Context& context);
 
-/// The same inputs once more under valgrind: one verdict, "memory"; skipped where valgrind is not installed.
-CheckVerdict examine_memory(const std::filesystem::path& library, const Context& context);
+/// The same inputs once more under valgrind, in one process, which starts slowly; where that finds something, each
+/// plugin in one of its own. \return for each library its verdict "memory"; skipped where valgrind is not installed
+std::vector<CheckVerdict> examine_memory(const std::vector<std::filesystem::path>& libraries, const Context& context);
 
 /// The other end: examines in this process and reports to file descriptor 3. \return the exit code
-int examine_here(const std::filesystem::path& library, bool brief);
+int examine_here(const std::vector<std::filesystem::path>& libraries, bool brief);
 
 }  // namespace toposcope::cli

@@ -20,8 +20,8 @@ struct CheckOptions {
   std::vector<fs::path> plugin_dirs;
   std::vector<fs::path> paths;
   bool json = false;
-  bool valgrind = false;  ///< for errors of memory too
-  fs::path child;         ///< the library to examine in this process; for the program itself
+  bool valgrind = false;           ///< for errors of memory too
+  std::vector<fs::path> children;  ///< libraries to examine in this process; for the program itself
   bool brief = false;
 };
 
@@ -90,40 +90,50 @@ void show(const Checked& plugin) {
   flush_output();
 }
 
+nlohmann::ordered_json report_of(const Checked& plugin) {
+  nlohmann::ordered_json checks = nlohmann::json::array();
+  for (const CheckVerdict& verdict : plugin.verdicts)
+    checks.push_back({{"check", verdict.check}, {"outcome", word(verdict.outcome)}, {"detail", verdict.detail}});
+  return {{"id", plugin.id},           {"version", plugin.version},
+          {"kind", plugin.kind},       {"library", plugin.library.string()},
+          {"passes", plugin.passes()}, {"checks", checks}};
+}
+
+/// Of the plugins that passed so far and ran.
+void check_memory(std::vector<Checked>& plugins, const Context& context) {
+  std::vector<Checked*> sound;
+  std::vector<fs::path> libraries;
+  for (Checked& plugin : plugins) {
+    const bool ran = std::none_of(plugin.verdicts.begin(), plugin.verdicts.end(),
+                                  [](const CheckVerdict& v) { return v.check == "run"; });  // it lacks a program
+    if (!ran || !plugin.passes()) continue;
+    sound.push_back(&plugin);
+    libraries.push_back(fs::absolute(plugin.library));
+  }
+  const std::vector<CheckVerdict> verdicts = examine_memory(libraries, context);
+  for (std::size_t i = 0; i < sound.size(); ++i) sound[i]->verdicts.push_back(verdicts[i]);
+}
+
 int plugins_check(const CheckOptions& options) {
-  if (!options.child.empty()) return examine_here(options.child, options.brief);
+  if (!options.children.empty()) return examine_here(options.children, options.brief);
   std::vector<Checked> plugins = collect(options);
   RunContext context({.threads = 1});  // what a signal cancels
   const Interruption interruption(context);
-  nlohmann::ordered_json root = {{"plugins", nlohmann::json::array()}};
-  std::size_t good = 0;
   for (Checked& plugin : plugins) {
-    if (plugin.verdicts.empty()) {
-      plugin.verdicts = examine_in_process(fs::absolute(plugin.library), context);
-      const bool ran = std::none_of(plugin.verdicts.begin(), plugin.verdicts.end(),
-                                    [](const CheckVerdict& v) { return v.check == "run"; });  // it lacks a program
-      if (options.valgrind && ran && plugin.passes())
-        plugin.verdicts.push_back(examine_memory(fs::absolute(plugin.library), context));
-    }
-    good += plugin.passes() ? 1 : 0;
-    if (!options.json) {
-      show(plugin);
-      continue;
-    }
-    nlohmann::ordered_json checks = nlohmann::json::array();
-    for (const CheckVerdict& verdict : plugin.verdicts)
-      checks.push_back({{"check", verdict.check}, {"outcome", word(verdict.outcome)}, {"detail", verdict.detail}});
-    root["plugins"].push_back({{"id", plugin.id},
-                               {"version", plugin.version},
-                               {"kind", plugin.kind},
-                               {"library", plugin.library.string()},
-                               {"passes", plugin.passes()},
-                               {"checks", checks}});
+    if (plugin.verdicts.empty()) plugin.verdicts = examine_in_process(fs::absolute(plugin.library), context);
+    if (!options.json && !options.valgrind) show(plugin);
   }
-  if (options.json)
+  if (options.valgrind) check_memory(plugins, context);
+  const auto good = static_cast<std::size_t>(
+      std::count_if(plugins.begin(), plugins.end(), [](const Checked& p) { return p.passes(); }));
+  if (options.json) {
+    nlohmann::ordered_json root = {{"plugins", nlohmann::json::array()}};
+    for (const Checked& plugin : plugins) root["plugins"].push_back(report_of(plugin));
     say("{}\n", root.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
-  else
+  } else {
+    for (std::size_t i = 0; options.valgrind && i < plugins.size(); ++i) show(plugins[i]);
     say("{} pass, {} fail\n", good, plugins.size() - good);
+  }
   return good == plugins.size() ? 0 : 4;
 }
 
@@ -134,7 +144,7 @@ void add_plugins_check(CLI::App& plugins, int& code) {
   const auto options = std::make_shared<CheckOptions>();
   command.add_option("path", options->paths, "libraries, folders of them or build folders; none: all that are found");
   command.add_flag("--valgrind", options->valgrind, "also under valgrind: leaks and accesses out of bounds");
-  command.add_option("--child", options->child)->group("");
+  command.add_option("--child", options->children)->group("");
   command.add_flag("--brief", options->brief)->group("");
   command.add_flag("--json", options->json, "print JSON");
   add_plugin_dirs(command, options->plugin_dirs);

@@ -65,7 +65,7 @@ std::string check_option_bounds(const Subject& subject, const TrialSet& trials);
 std::string check_degenerate(const Subject& subject, const TrialSet& trials);
 std::string check_poisoned(const Subject& subject, const TrialSet& trials);
 std::string check_exceptions(const Subject& subject, const TrialSet& trials);
-std::string check_cancellation(const Subject& subject, const TrialSet& trials);
+std::string check_cancellation(const Subject& subject, const TrialSet& trials, double patience_s);
 std::string check_repeat(const Subject& subject, const TrialSet& trials);
 std::string check_threads(const Subject& subject, const TrialSet& trials);
 std::string check_rotation(const Subject& subject, const TrialSet& trials);

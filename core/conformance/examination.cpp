@@ -72,7 +72,7 @@ std::string after_id(const PluginError& error) {
 
 }  // namespace
 
-void examine_plugin(const std::filesystem::path& library, bool brief, VerdictSink& sink) {
+void examine_plugin(const std::filesystem::path& library, const Examination& examination, VerdictSink& sink) {
   Examiner examiner(sink);
   PluginManifest manifest;
   const PluginDescriptor* descriptor = nullptr;
@@ -104,7 +104,7 @@ void examine_plugin(const std::filesystem::path& library, bool brief, VerdictSin
     examiner.skip("the others", "a plugin that fails on ordinary input is not tried further");
     return;
   }
-  if (brief) {
+  if (examination.brief) {
     examiner.check("degenerate input", [&] { return check_degenerate(subject, trials); });
     return;
   }
@@ -113,7 +113,7 @@ void examine_plugin(const std::filesystem::path& library, bool brief, VerdictSin
   examiner.check("degenerate input", [&] { return check_degenerate(subject, trials); });
   examiner.check("NaN", [&] { return check_poisoned(subject, trials); });
   examiner.check("exceptions", [&] { return check_exceptions(subject, trials); });
-  examiner.check("cancellation", [&] { return check_cancellation(subject, trials); });
+  examiner.check("cancellation", [&] { return check_cancellation(subject, trials, examination.patience_s); });
   if (!examiner.check("repeat", [&] { return check_repeat(subject, trials); })) {
     for (const char* name : {"threads", "invariance"})
       examiner.skip(name, "answers that change from run to run cannot be compared");

@@ -240,8 +240,7 @@ std::string check_exceptions(const Subject& subject, const TrialSet& trials) {
                             : "it throws none, and its context is not called";
 }
 
-std::string check_cancellation(const Subject& subject, const TrialSet& trials) {
-  constexpr double patience_s = 10;  // a machine may be busy
+std::string check_cancellation(const Subject& subject, const TrialSet& trials, double patience_s) {
   const auto object = made(subject);
   const auto arguments = subject.arguments();
   double longest = 0;
