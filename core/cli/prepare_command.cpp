@@ -135,8 +135,9 @@ class Preparer {
     const fs::path target = target_of(options_, path);
     stop_if_cancelled(session_.context(), done.mesh_path + " was not prepared");
     if (target.empty()) return done;
-    write_mesh(target, made.mesh.view().positions, made.mesh.view().triangles,
-               {.input_faces = made.mesh.face_origin()});
+    const std::string lost = write_mesh(target, made.mesh.view().positions, made.mesh.view().triangles,
+                                        {.input_faces = made.mesh.face_origin()});
+    if (!lost.empty()) session_.context().log(LogLevel::warning, lost);
     done.written = target.string();
     return done;
   }

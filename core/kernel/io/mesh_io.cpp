@@ -20,6 +20,12 @@ bool begins_with_off(std::string_view bytes) {
          word.substr(0, word.size() - 3).find_first_not_of("STCN4n") == word.npos;
 }
 
+/// So many, and so small, that the corners of neighbours were meant to be one.
+bool in_pieces(const RepairReport& report, std::size_t faces) {
+  constexpr std::size_t many = 32, small = 8;
+  return report.components >= many && faces < small * report.components;
+}
+
 TriangleSoup read_by_format(const FileText& file, const std::string& extension) {
   if (file.bytes.starts_with("ply")) return read_ply(file);
   if (file.bytes.starts_with("glTF")) return read_gltf(file);
@@ -61,6 +67,11 @@ Mesh read_mesh(const std::filesystem::path& path, Context* context) {
 
 RepairedMesh repaired_mesh(TriangleSoup soup, const std::string& name, Context* context) {
   const RepairReport report = repair(soup, name);
+  if (context && in_pieces(report, soup.triangles.size()))
+    context->log(LogLevel::warning, name + ": falls into " + std::to_string(report.components) + " components of " +
+                                        std::to_string(soup.triangles.size()) +
+                                        " faces in all; features end where components do: merge close vertices in the "
+                                        "program that made the mesh, or weld it there");
   return {Mesh(std::move(soup), name, context), report};
 }
 

@@ -49,9 +49,10 @@ bool can_write_mesh(const std::filesystem::path& path);
 
 /// Writes by extension: .ply (binary little-endian, with face attributes), .obj, .stl (binary), .off. The file appears
 /// whole or not at all.
+/// \return what the format could not hold, as a warning with its remedy; empty where it holds all (PLY, OBJ, OFF)
 /// \throw MeshError unknown extension; UsageError when the file cannot be written
-void write_mesh(const std::filesystem::path& path, std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                const FaceAttributes& attributes = {});
+std::string write_mesh(const std::filesystem::path& path, std::span<const Vec3> positions,
+                       std::span<const Triangle> triangles, const FaceAttributes& attributes = {});
 
 /// Writes text so that the file appears whole or not at all. \throw UsageError
 void write_file(const std::filesystem::path& path, std::string_view content);

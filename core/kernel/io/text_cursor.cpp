@@ -17,7 +17,7 @@ constexpr auto kinds = [] {
   return table;
 }();
 
-bool is_space(char c) {
+bool is_blank(char c) {
   return kinds[static_cast<unsigned char>(c)] == space;
 }
 bool is_word_end(char c) {
@@ -33,7 +33,7 @@ std::string_view without_plus(std::string_view word) {
 
 void TextCursor::skip_spaces() {
   while (at_ != end_) {
-    if (is_space(*at_)) {
+    if (is_blank(*at_)) {
       ++at_;
     } else if (*at_ == '\\' && syntax_.continuations && at_ + 1 != end_ && (at_[1] == '\n' || at_[1] == '\r')) {
       at_ = after_line_end(at_ + 1);

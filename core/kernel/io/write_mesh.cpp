@@ -4,6 +4,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "base/errors.h"
@@ -110,6 +111,26 @@ std::string stl(std::span<const Vec3> positions, std::span<const Triangle> trian
   return out;
 }
 
+/// What single precision makes of the faces, in words; empty where they keep their edges.
+std::string lost_in_single_precision(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                                     const std::string& name) {
+  constexpr double clear = 16;  // steps between numbers: an edge as long keeps its length within some hundredths
+  const auto is_lost = [&](const Vec3& a, const Vec3& b) {
+    const double greatest = a.cwiseAbs().cwiseMax(b.cwiseAbs()).maxCoeff();
+    const double step =
+        std::max<double>(std::numeric_limits<float>::epsilon() * greatest, std::numeric_limits<float>::denorm_min());
+    return a != b && (a - b).norm() < clear * step;
+  };
+  const auto lost = std::ranges::count_if(triangles, [&](const Triangle& t) {
+    return is_lost(positions[t[0]], positions[t[1]]) || is_lost(positions[t[1]], positions[t[2]]) ||
+           is_lost(positions[t[2]], positions[t[0]]);
+  });
+  if (lost == 0) return "";
+  return name + ": STL has single precision, in which " + std::to_string(lost) + " of " +
+         std::to_string(triangles.size()) +
+         " faces lose their form so far from the origin or so small; write PLY, or move and scale the mesh first";
+}
+
 void check(const std::string& name, std::span<const Vec3> positions, std::span<const Triangle> triangles,
            const FaceAttributes& attributes) {
   const auto fits = [&](std::size_t count) { return count == 0 || count == triangles.size(); };
@@ -130,15 +151,23 @@ bool can_write_mesh(const std::filesystem::path& path) {
   return extension == ".ply" || extension == ".obj" || extension == ".stl" || extension == ".off";
 }
 
-void write_mesh(const std::filesystem::path& path, std::span<const Vec3> positions, std::span<const Triangle> triangles,
-                const FaceAttributes& attributes) {
+std::string write_mesh(const std::filesystem::path& path, std::span<const Vec3> positions,
+                       std::span<const Triangle> triangles, const FaceAttributes& attributes) {
   const std::string name = path.string(), extension = lower_extension(path);
   check(name, positions, triangles, attributes);
-  if (extension == ".ply") return write_file(path, ply(positions, triangles, attributes));
-  if (extension == ".obj") return write_file(path, obj(positions, triangles));
-  if (extension == ".stl") return write_file(path, stl(positions, triangles, name));
-  if (extension == ".off") return write_file(path, off(positions, triangles));
-  throw MeshError(name + ": cannot write a mesh as '" + extension + "'; use .ply, .obj, .stl or .off");
+  if (extension == ".ply") {
+    write_file(path, ply(positions, triangles, attributes));
+  } else if (extension == ".obj") {
+    write_file(path, obj(positions, triangles));
+  } else if (extension == ".stl") {
+    write_file(path, stl(positions, triangles, name));
+    return lost_in_single_precision(positions, triangles, name);
+  } else if (extension == ".off") {
+    write_file(path, off(positions, triangles));
+  } else {
+    throw MeshError(name + ": cannot write a mesh as '" + extension + "'; use .ply, .obj, .stl or .off");
+  }
+  return "";
 }
 
 }  // namespace toposcope

@@ -2,6 +2,7 @@
 #include "mesh/clean.h"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -106,6 +107,38 @@ bool drop_repeated_components(TriangleSoup& soup, Cleaned& cleaned, std::span<co
   return dropped > 0;
 }
 
+/// Vertices at open sides.
+std::vector<bool> open_vertices(std::size_t vertices, std::span<const Triangle> welded, const Gluing& gluing) {
+  std::vector<bool> open(vertices, false);
+  for (Index side = 0; side < gluing.opposite.size(); ++side)
+    if (gluing.opposite[side] == Gluing::none)
+      for (Index s : {side, Gluing::next(side)}) open[welded[s / 3][s % 3]] = true;
+  return open;
+}
+
+double shortest_edge(std::span<const Vec3> positions, std::span<const Triangle> welded) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : welded)
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+      shortest = std::min(shortest, (positions[from] - positions[to]).norm());
+  return shortest;
+}
+
+/// Joins what is open and all but closed: corners that a program computed for each triangle anew.
+void weld_near(TriangleSoup& soup, Cleaned& cleaned, RepairReport& report) {
+  const std::vector<bool> open = open_vertices(soup.positions.size(), cleaned.welded, cleaned.gluing);
+  if (std::find(open.begin(), open.end(), true) == open.end()) return;
+  const NearPlaces near = first_at_near_place(soup.positions, open, shortest_edge(soup.positions, cleaned.welded));
+  if (near.joined == 0) return;
+  report.near_vertices = near.joined;
+  report.near_distance = near.distance;
+  for (Index& v : cleaned.first) v = near.first[v];
+  for (Triangle& t : cleaned.welded)
+    for (Index& v : t) v = near.first[v];
+  drop_waste(soup, cleaned.welded, report);
+  cleaned.gluing = glue(soup.positions, cleaned.welded, soup.triangles);
+}
+
 }  // namespace
 
 Cleaned clean(TriangleSoup& soup, const std::string& name, RepairReport& report) {
@@ -137,11 +170,7 @@ Cleaned clean(TriangleSoup& soup, const std::string& name, RepairReport& report)
   if (joins()) {
     if (drop_repeated_components(soup, cleaned, cleaned.first, report))
       cleaned.gluing = glue(soup.positions, welded, soup.triangles);
-    std::vector<bool> open(soup.positions.size(), false);
-    for (Index side = 0; side < cleaned.gluing.opposite.size(); ++side)
-      if (cleaned.gluing.opposite[side] == Gluing::none)
-        for (Index s : {side, Gluing::next(side)}) open[welded[s / 3][s % 3]] = true;
-    cleaned.first = first_at_same_place(soup.positions, open);
+    cleaned.first = first_at_same_place(soup.positions, open_vertices(soup.positions.size(), welded, cleaned.gluing));
     if (joins()) {
       for (Triangle& t : welded)
         for (Index& v : t) v = cleaned.first[v];
@@ -149,6 +178,7 @@ Cleaned clean(TriangleSoup& soup, const std::string& name, RepairReport& report)
       cleaned.gluing = glue(soup.positions, welded, soup.triangles);
     }
   }
+  weld_near(soup, cleaned, report);
   if (soup.triangles.empty())
     throw MeshError(name + ": every face has two corners at one place, nothing is left of the surface");
   return cleaned;

@@ -9,6 +9,8 @@ namespace toposcope {
 /// mesh is like afterwards.
 struct RepairReport {
   Index merged_vertices = 0;        ///< removed: at the place of another one
+  Index near_vertices = 0;          ///< of these, not at the very place of another one but too near to it to differ
+  double near_distance = 0;         ///< of them the greatest, mesh unit
   Index unreferenced_vertices = 0;  ///< removed: no face uses them, or none any more
   Index non_finite_vertices = 0;    ///< removed, with the faces that use them
   Index non_finite_faces = 0;       ///< removed: a corner is not finite
@@ -37,7 +39,8 @@ struct RepairReport {
   /// Whether something was done that a user should hear of: more than merging, dropping what is empty, or turning
   /// faces.
   bool notable() const {
-    return non_finite_faces + split_edges + isolated_faces + split_vertices + cut_edges + flat_faces > 0;
+    return near_vertices + non_finite_faces + split_edges + isolated_faces + split_vertices + cut_edges + flat_faces >
+           0;
   }
 };
 

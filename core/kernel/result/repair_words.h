@@ -15,7 +15,7 @@ struct RepairCount {
   Index count;
 };
 
-/// What was done, in the order in which it is done; zeros too.
+/// What was done, in the order in which it is done; zeros too, but for near vertices, which are rare.
 std::vector<RepairCount> repair_counts(const RepairReport& report);
 
 /// "2 edges split, 4 vertices merged"; "nothing to repair".

@@ -181,5 +181,18 @@ TEST(ReadMesh, HostileFilesAreReadOrRefused) {
   EXPECT_GE(refused, 20U);
 }
 
+TEST(WriteMesh, SaysWhereStlLosesTheForm) {
+  const test::ScratchFolder folder;
+  const std::vector<Triangle> one = {{0, 1, 2}};
+  const auto warning = [&](double offset, double scale, const char* name) {
+    const std::vector<Vec3> corners = {Vec3(offset, 0, 0), Vec3(offset + scale, 0, 0), Vec3(offset, scale, 0)};
+    return write_mesh(folder.path() / name, corners, one);
+  };
+  EXPECT_EQ(warning(0, 1, "mesh.stl"), "");
+  EXPECT_TRUE(test::says(warning(5.4e6, 0.001, "utm.stl"), "1 of 1 faces lose their form"));
+  EXPECT_TRUE(test::says(warning(0, 1e-70, "tiny.stl"), "write PLY"));
+  EXPECT_EQ(warning(5.4e6, 0.001, "utm.ply"), "");
+}
+
 }  // namespace
 }  // namespace toposcope

@@ -230,6 +230,39 @@ TEST(Repair, MakesManifoldsOfAnything) {
   }
 }
 
+/// Three vertices a face, each moved a little.
+TriangleSoup nearly_together(const TriangleSoup& mesh, double amount) {
+  TriangleSoup soup = separated(mesh);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> offset(-amount, amount);
+  for (Vec3& p : soup.positions) p += Vec3(offset(random), offset(random), offset(random));
+  return soup;
+}
+
+TEST(Repair, WeldsCornersThatAreNearlyAtOnePlace) {
+  const TriangleSoup box = test::make_box({3, 2, 1}, 4);
+  TriangleSoup soup = nearly_together(box, 1e-6);
+  const RepairReport report = repaired(soup, "nearly welded");
+  EXPECT_EQ(report.components, 1U);
+  EXPECT_EQ(report.closed_components, 1U);
+  EXPECT_EQ(soup.triangles.size(), box.triangles.size());
+  EXPECT_EQ(soup.positions.size() + report.near_vertices, 3 * box.triangles.size());
+  EXPECT_LT(report.near_distance, 4e-6);
+  EXPECT_TRUE(report.notable());
+}
+
+TEST(Repair, WeldsNothingWithoutAGapInTheDistances) {
+  for (const double amount : {1e-3, 1e-2}) {  // of edges of 0.25 and more: no rounding
+    TriangleSoup soup = nearly_together(test::make_box({3, 2, 1}, 4), amount);
+    const TriangleSoup before = soup;
+    EXPECT_EQ(repaired(soup, "loose").near_vertices, 0U);
+    test::expect_same(soup, before, "loose");
+  }
+  TriangleSoup cubes = together(cube_at({0, 0, 0}), cube_at({1 + 1e-6, 0, 0}));  // closed: none of them has a seam
+  EXPECT_EQ(repaired(cubes, "cubes").near_vertices, 0U);
+  EXPECT_EQ(cubes.positions.size(), 16U);
+}
+
 TEST(Repair, TakesTimeInProportionToTheMesh) {
   // A hundred thousand faces at one edge, and as many at one vertex: quadratic work would not end.
   const Index n = 100000;
