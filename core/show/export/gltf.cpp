@@ -10,6 +10,7 @@
 #include "picture/layer.h"
 #include "result/palette.h"
 #include "result/shape_json.h"
+#include "scene/local_frame.h"
 
 namespace toposcope {
 namespace {
@@ -25,7 +26,7 @@ enum Mode { points = 0, line_strip = 3, triangles = 4 };
 /// Gathers a document and its one buffer.
 class Document {
  public:
-  explicit Document(const std::string& program) {
+  Document(const std::string& program, const LocalFrame& frame) : frame_(frame) {
     root["asset"] = {{"version", "2.0"}, {"generator", program}};
     root["scene"] = 0;
     root["scenes"] = {{{"nodes", Json::array()}}};
@@ -35,6 +36,11 @@ class Document {
   int add(const char* list, Json object) {
     root[list].push_back(std::move(object));
     return static_cast<int>(root[list].size()) - 1;
+  }
+
+  int positions(std::vector<Vec3> list) {
+    for (Vec3& p : list) p = frame_.to_local(p);
+    return vectors(list, true);
   }
 
   int vectors(const std::vector<Vec3>& list, bool bounds) {
@@ -101,6 +107,7 @@ class Document {
     return add("bufferViews", {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}, {"target", target}});
   }
 
+  LocalFrame frame_;
   std::string bytes_;
 };
 
@@ -144,7 +151,7 @@ int add_part(Document& document, const std::string& name, const Part& part, int 
   if (part.triangles.empty()) return -1;
   const Json primitive = {
       {"attributes",
-       {{"POSITION", document.vectors(part.positions, true)}, {"NORMAL", document.vectors(part.normals, false)}}},
+       {{"POSITION", document.positions(part.positions)}, {"NORMAL", document.vectors(part.normals, false)}}},
       {"indices", document.indices(part.triangles)},
       {"material", material},
       {"mode", triangles}};
@@ -158,12 +165,12 @@ int add_shape(Document& document, const std::string& name, const Drawing& drawin
   const auto add = [&](const std::vector<Vec3>& list, Mode mode) {
     if (list.empty()) return;
     primitives.push_back(
-        {{"attributes", {{"POSITION", document.vectors(list, true)}}}, {"material", opaque}, {"mode", mode}});
+        {{"attributes", {{"POSITION", document.positions(list)}}}, {"material", opaque}, {"mode", mode}});
   };
   for (const std::vector<Vec3>& line : drawing.lines) add(line, line_strip);
   add(drawing.points, points);
   for (const Patch& patch : drawing.patches)
-    primitives.push_back({{"attributes", {{"POSITION", document.vectors(patch.positions, true)}}},
+    primitives.push_back({{"attributes", {{"POSITION", document.positions(patch.positions)}}},
                           {"indices", document.indices(patch.triangles)},
                           {"material", document.material(name + " patch", color, 0.4)},
                           {"mode", triangles}});
@@ -181,8 +188,9 @@ Json extras(const StoredFeature& feature) {
 }  // namespace
 
 std::string to_gltf(const LabelledMesh& labelled, const std::string& program) {
-  Document document(program);
   const MeshView& view = labelled.mesh.view();
+  const LocalFrame frame = local_frame(view.positions);
+  Document document(program, frame);
   const std::vector<Vec3> normals = vertex_normals(view);
   Json roots = Json::array();
   const int rest = add_part(document, "unlabelled", part_of(view, labelled.labels, 0, normals),
@@ -201,8 +209,12 @@ std::string to_gltf(const LabelledMesh& labelled, const std::string& program) {
     roots.push_back(document.add("nodes", std::move(node)));
   }
   const std::string name = labelled.result.mesh.stem().string();
-  document.root["scenes"][0] = {{"name", name},
-                                {"nodes", {document.add("nodes", {{"name", name}, {"children", roots}})}}};
+  Json node = {{"name", name}, {"children", roots}};
+  if (!frame.is_world()) {
+    node["translation"] = {frame.origin.x(), frame.origin.y(), frame.origin.z()};
+    node["scale"] = {frame.scale, frame.scale, frame.scale};
+  }
+  document.root["scenes"][0] = {{"name", name}, {"nodes", {document.add("nodes", std::move(node))}}};
   return document.file();
 }
 

@@ -68,14 +68,13 @@ class Geometry {
     }
   }
 
-  std::vector<float> points;
+  std::vector<double> points;
   Cells lines, polys;
 
  private:
   std::int64_t add(const std::vector<Vec3>& positions) {
     const auto first = static_cast<std::int64_t>(points.size() / 3);
-    for (const Vec3& p : positions)
-      for (const double x : p) points.push_back(static_cast<float>(x));
+    for (const Vec3& p : positions) points.insert(points.end(), p.begin(), p.end());
     return first;
   }
 };
@@ -115,7 +114,7 @@ std::string to_vtp(const LabelledMesh& labelled) {
   text += "<Piece NumberOfPoints=\"" + std::to_string(geometry.points.size() / 3) +
           "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(lines.ends.size()) +
           "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(polys.ends.size()) + "\">\n";
-  text += "<Points>\n" + array("type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\"", geometry.points) +
+  text += "<Points>\n" + array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", geometry.points) +
           "</Points>\n";
   // Cells are counted lines first.
   text += "<CellData Scalars=\"label\">\n" +

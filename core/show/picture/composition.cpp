@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 #include "toposcope/geometry/lines.h"
 
@@ -54,6 +55,21 @@ void add_ball(ShadedMesh& solid, const Vec3& center, double radius, const Rgb& c
 }
 
 }  // namespace
+
+Composition in_unit_box(Composition composition) {
+  const auto for_each_point = [&](const auto& body) {
+    for (ShadedMesh* solid : {&composition.surface, &composition.lines, &composition.sheets})
+      for (Vec3& p : solid->positions) body(p);
+  };
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for_each_point([&](const Vec3& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); });
+  const double diagonal = (high - low).stableNorm();
+  if (!(diagonal > 0) || !std::isfinite(diagonal)) return composition;
+  const Vec3 middle = low + (high - low) / 2;
+  for_each_point([&](Vec3& p) { p = (p - middle) / diagonal; });
+  composition.line_radius /= diagonal;
+  return composition;
+}
 
 void ShadedMesh::append(const ShadedMesh& other) {
   const Index first = static_cast<Index>(positions.size());

@@ -25,8 +25,12 @@ struct Composition {
   bool show_edges = false;  ///< the triangles' edges, where they are large enough to see
   ShadedMesh lines;         ///< tubes and balls; what the surface hides of them shines through
   ShadedMesh sheets;        ///< likewise, translucent
-  double line_radius = 0;   ///< of the tubes, mesh unit
+  double line_radius = 0;   ///< of the tubes
 };
+
+/// Moved and scaled to a box of diagonal 1 about the origin: what is drawn in single precision keeps its digits
+/// wherever and however large the object is.
+Composition in_unit_box(Composition composition);
 
 /// Normals at the corners of a mesh: the mean of the faces around a vertex, by their angles there, that meet the
 /// triangle at less than 40 degrees, so that round things look round and edges sharp.

@@ -21,6 +21,12 @@ const std::array<float, 256>& linear_table() {
   return table;
 }
 
+/// What lies far outside, or is no number, may be no int.
+int within(int low, int high, double value) {
+  if (!(value > low)) return low;
+  return value < high ? static_cast<int>(value) : high;
+}
+
 }  // namespace
 
 Eigen::Vector3f to_linear(const Rgb& color) {
@@ -47,14 +53,14 @@ void Layer::draw(int first, int last, int columns, std::vector<Sample>& samples)
   for (Index t = 0; t < solid_.triangles.size(); ++t) {
     const Triangle& triangle = solid_.triangles[t];
     const auto &a = corners_[triangle[0]], &b = corners_[triangle[1]], &c = corners_[triangle[2]];
-    const int top = std::max(first, static_cast<int>(std::ceil(std::min({a.y, b.y, c.y}))));
-    const int bottom = std::min(last - 1, static_cast<int>(std::floor(std::max({a.y, b.y, c.y}))));
+    const int top = within(first, last, std::ceil(std::min({a.y, b.y, c.y})));
+    const int bottom = within(first - 1, last - 1, std::floor(std::max({a.y, b.y, c.y})));
     if (top > bottom) continue;
-    const int left = std::max(0, static_cast<int>(std::ceil(std::min({a.x, b.x, c.x}))));
-    const int right = std::min(columns - 1, static_cast<int>(std::floor(std::max({a.x, b.x, c.x}))));
+    const int left = within(0, columns, std::ceil(std::min({a.x, b.x, c.x})));
+    const int right = within(-1, columns - 1, std::floor(std::max({a.x, b.x, c.x})));
     const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
     const double area = bx * cy - by * cx;
-    if (left > right || area == 0) continue;
+    if (left > right || area == 0 || !std::isfinite(area)) continue;
     const double scale = 1 / area, slack = -1e-9;
     for (int y = top; y <= bottom; ++y) {
       const double dy = y - a.y;

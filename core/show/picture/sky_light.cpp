@@ -75,11 +75,14 @@ void SkyLight::draw(const ShadedMesh& surface, Direction& direction) const {
     const Vec3f &a = corners[t[0]], &b = corners[t[1]], &c = corners[t[2]];
     const float bx = b.x() - a.x(), by = b.y() - a.y(), cx = c.x() - a.x(), cy = c.y() - a.y();
     const float area = bx * cy - by * cx;
-    if (area == 0) continue;
-    const int left = static_cast<int>(std::ceil(std::min({a.x(), b.x(), c.x()})));
-    const int right = static_cast<int>(std::max({a.x(), b.x(), c.x()}));
-    const int top = static_cast<int>(std::ceil(std::min({a.y(), b.y(), c.y()})));
-    const int bottom = static_cast<int>(std::max({a.y(), b.y(), c.y()}));
+    if (area == 0 || !std::isfinite(area)) continue;
+    const auto pixel_of = [&](float place) {
+      return static_cast<int>(std::clamp(place, 0.0F, static_cast<float>(pixels_ - 1)));
+    };
+    const int left = pixel_of(std::ceil(std::min({a.x(), b.x(), c.x()})));
+    const int right = pixel_of(std::max({a.x(), b.x(), c.x()}));
+    const int top = pixel_of(std::ceil(std::min({a.y(), b.y(), c.y()})));
+    const int bottom = pixel_of(std::max({a.y(), b.y(), c.y()}));
     for (int y = top; y <= bottom; ++y)
       for (int x = left; x <= right; ++x) {
         const float dx = static_cast<float>(x) - a.x(), dy = static_cast<float>(y) - a.y();

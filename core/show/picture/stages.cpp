@@ -157,7 +157,7 @@ Composition compose(const Scene& scene, Stage stage, const std::string& feature,
       composer.marks();
       break;
   }
-  return composer.take();
+  return in_unit_box(composer.take());
 }
 
 std::vector<Vec3> extent(const Composition& composition) {
@@ -169,9 +169,11 @@ std::vector<Vec3> extent(const Composition& composition) {
 
 View best_view(const Scene& scene, const Stand& stand) {
   constexpr int width = 160, height = 120;
-  ShadedMesh solid;
-  solid.positions = scene.input.positions;
-  solid.triangles = scene.input.triangles;
+  Composition object;
+  object.surface.positions = scene.input.positions;
+  object.surface.triangles = scene.input.triangles;
+  object = in_unit_box(std::move(object));
+  const ShadedMesh& solid = object.surface;
   View best;
   double most = 0;
   std::vector<Layer::Sample> samples;

@@ -88,6 +88,27 @@ std::array<Sum, 3> sums_of(const json& model, const std::map<std::string, Vec3>&
   return sums;
 }
 
+/// \throw UsageError  it is no model
+json model_of(const Scene& scene) {
+  json model = json::parse(scene.model);
+  const auto refuse = [](const std::string& what) {
+    throw UsageError("the scene's model is none: " + what + "; write the scene anew with toposcope run --out");
+  };
+  if (!model.is_object() || !model.contains("features") || !model["features"].is_object()) refuse("it has no features");
+  for (const auto& [name, feature] : model["features"].items())
+    if (!feature.is_object() || (feature.contains("realises") && !feature["realises"].is_string()))
+      refuse("its feature '" + name + "' is no feature");
+  for (const json& association : model.value("associations", json::array()))
+    for (const auto& [relation, to] : association.items())
+      if (!association.is_object() || !to.is_string()) refuse("'" + relation + "' of an association names no object");
+  for (const char* network : {"parts", "topology"})
+    if (model.contains(network))
+      for (const auto& [object, held] : model[network].items())
+        for (const json& each : held)
+          if (!each.is_string()) refuse("'" + object + "' in " + network + " does not list names");
+  return model;
+}
+
 Vec3 square_to(const Vec3& up, const Vec3& wanted) {
   return (wanted - wanted.dot(up) * up).normalized();
 }
@@ -98,7 +119,7 @@ Stand stand_of(const Scene& scene) {
   if (scene.model.empty()) return {};
   Vec3 middle = Vec3::Zero();
   for (const Vec3& p : scene.input.positions) middle += p / static_cast<double>(scene.input.positions.size());
-  std::array<Sum, 3> sums = sums_of(json::parse(scene.model), places(scene), middle);
+  std::array<Sum, 3> sums = sums_of(model_of(scene), places(scene), middle);
   // A fin that is up of the fuselage lies far back too: what an axis has of a surer one is taken away.
   std::stable_sort(sums.begin(), sums.end(), [](const Sum& a, const Sum& b) { return a.sure > b.sure; });
   std::map<Axis, Vec3> found;

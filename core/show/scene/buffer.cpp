@@ -14,6 +14,7 @@ static_assert(std::endian::native == std::endian::little, "buffers are written a
 
 constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr double steps = 65535;
+constexpr double largest_coordinate = 1e100;  // meshes end before, and squares stay numbers
 
 template <class Value>
 SceneJson buffer_of(const char* type, const std::vector<Value>& values) {
@@ -167,7 +168,11 @@ std::vector<Vec3> read_points(const SceneJson& buffer) {
   if (values.size() % 3 != 0) throw std::invalid_argument("a buffer of points ends within a point");
   std::vector<Vec3> points;
   points.reserve(values.size() / 3);
-  for (std::size_t i = 0; i < values.size(); i += 3) points.emplace_back(&values[i]);
+  for (std::size_t i = 0; i < values.size(); i += 3) {
+    points.emplace_back(&values[i]);
+    if (!(points.back().cwiseAbs().maxCoeff() < largest_coordinate) || points.back().hasNaN())
+      throw std::invalid_argument("a buffer holds a point that is not finite, or out of reach");
+  }
   return points;
 }
 

@@ -5,6 +5,7 @@
 #include "base/errors.h"
 #include "result/shape_json.h"
 #include "scene/buffer.h"
+#include "scene/local_frame.h"
 #include "scene/scene.h"
 
 namespace toposcope {
@@ -74,6 +75,12 @@ ShownCandidate candidate_from(const SceneJson& node, std::size_t sets) {
   return candidate;
 }
 
+LocalFrame frame_from(const SceneJson& node) {
+  const SceneJson& origin = node.at("origin");
+  return {Vec3(origin.at(0).get<double>(), origin.at(1).get<double>(), origin.at(2).get<double>()),
+          node.at("scale").get<double>()};
+}
+
 Scene scene_from(const SceneJson& root) {
   if (root.value("schema", "") != "toposcope.scene/1") throw std::invalid_argument("'schema' is not toposcope.scene/1");
   Scene scene;
@@ -110,7 +117,7 @@ Scene scene_from(const SceneJson& root) {
   }
   if (root.contains("model")) scene.model = root.at("model").dump();
   if (root.contains("truth")) scene.truth = root.at("truth").dump();
-  return scene;
+  return root.contains("frame") ? in_world(std::move(scene), frame_from(root.at("frame"))) : scene;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "result/palette.h"
 #include "result/shape_json.h"
 #include "scene/buffer.h"
+#include "scene/local_frame.h"
 #include "scene/scene.h"
 
 namespace toposcope {
@@ -106,7 +107,11 @@ SceneJson document(const Scene& scene, const std::string& program) {
 }  // namespace
 
 std::string to_json(const Scene& scene, const std::string& program) {
-  return document(scene, program).dump(-1, ' ', false, SceneJson::error_handler_t::replace) + "\n";
+  const LocalFrame frame = local_frame(scene.input.positions);
+  SceneJson root = document(frame.is_world() ? scene : in_local_frame(scene, frame), program);
+  if (!frame.is_world())
+    root["frame"] = {{"origin", {frame.origin.x(), frame.origin.y(), frame.origin.z()}}, {"scale", frame.scale}};
+  return root.dump(-1, ' ', false, SceneJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace toposcope

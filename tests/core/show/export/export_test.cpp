@@ -6,12 +6,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "scene/buffer.h"
 #include "support/program.h"
 #include "support/schemas.h"
 
@@ -141,6 +143,50 @@ print(json.dumps({'error': reader.GetErrorCode(), 'bounds': data.GetBounds(), 'l
     double low = 1e300;
     for (const Vec3& p : mesh.mesh.view().positions) low = std::min(low, p.x());
     EXPECT_NEAR(read["bounds"][0].get<double>(), low, 0.01 * mesh.mesh.view().box.diagonal());  // shapes reach further
+  }
+}
+
+/// A cup's result with the mesh moved and scaled, and what was found moved with it.
+LabelledMesh moved(const Vec3& place, double size) {
+  LabelledMesh cup = labelled("cup");
+  TriangleSoup soup;
+  const MeshView& view = cup.mesh.view();
+  for (const Vec3& p : view.positions) soup.positions.push_back(place + size * p);
+  soup.triangles.assign(view.triangles.begin(), view.triangles.end());
+  soup.face_origin.assign(cup.mesh.face_origin().begin(), cup.mesh.face_origin().end());
+  soup.input_faces = cup.mesh.input_faces();
+  return {cup.result, Mesh(std::move(soup), "moved"), std::vector<std::uint8_t>(cup.labels.size(), 0), {}};
+}
+
+std::set<std::array<double, 3>> places_of(std::span<const Vec3> positions) {
+  std::set<std::array<double, 3>> places;
+  for (const Vec3& p : positions) places.insert({p.x(), p.y(), p.z()});
+  return places;
+}
+
+TEST(Export, GltfAndVtpKeepPositionsWhereverTheMeshLies) {
+  const std::pair<Vec3, double> cases[] = {
+      {{500000, 5400000, 300}, 0.001}, {{0, 0, 0}, 1e39}, {{0, 0, 0}, 1e-70}, {{0, 0, 0}, 1}};
+  for (const auto& [place, size] : cases) {
+    SCOPED_TRACE(size);
+    const LabelledMesh mesh = moved(place, size);
+    const std::span<const Vec3> expected = mesh.mesh.view().positions;
+    const TriangleSoup read = read_soup(to_gltf(mesh, "test"), "features.glb");
+    EXPECT_EQ(places_of(read.positions).size(), places_of(expected).size());
+    Vec3 low = expected[0], high = low, low_read = read.positions[0], high_read = low_read;
+    for (const Vec3& p : expected) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    for (const Vec3& p : read.positions) low_read = low_read.cwiseMin(p), high_read = high_read.cwiseMax(p);
+    const double near = 1e-6 * (high - low).norm() + 1e-9 * place.norm();
+    EXPECT_LT((low - low_read).norm(), near);
+    EXPECT_LT((high - high_read).norm(), near);
+    EXPECT_EQ(to_gltf(mesh, "test").find("null"), std::string::npos);
+
+    const std::string vtp = to_vtp(mesh), head = "<DataArray type=\"Float64\" Name=\"Points\"";
+    const std::size_t begin = vtp.find('>', vtp.find(head)) + 1;
+    ASSERT_NE(vtp.find(head), std::string::npos);
+    const std::string bytes = from_base64(std::string_view(vtp).substr(begin, vtp.find('<', begin) - begin));
+    ASSERT_EQ(bytes.size(), 8 + 24 * expected.size());
+    EXPECT_EQ(std::memcmp(bytes.data() + 8, expected.data(), 24 * expected.size()), 0);
   }
 }
 

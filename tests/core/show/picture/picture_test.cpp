@@ -7,6 +7,7 @@
 #include <png.h>
 
 #include "base/errors.h"
+#include "base/run_context.h"
 #include "picture/sky_light.h"
 #include "picture/stages.h"
 #include "support/meshes.h"
@@ -126,6 +127,55 @@ TEST(Picture, NearHidesFarAndHiddenLinesShineThrough) {
   const int behind = blueness(picture(1.2));
   EXPECT_GT(behind, 5);
   EXPECT_LT(behind, 60);
+}
+
+/// A box there and so large, of one feature, with a line around it.
+Scene box_scene(const Vec3& place, double size) {
+  const TriangleSoup box = test::make_box({3, 1, 2}, 4);
+  Scene scene;
+  scene.features = {"rim"};
+  for (const Vec3& p : box.positions) scene.input.positions.push_back(place + size * p);
+  scene.input.triangles = box.triangles;
+  scene.input.labels.assign(box.triangles.size(), 1);
+  Drawing drawing;
+  drawing.lines = {{place + size * Vec3(-1.5, -0.5, 1), place + size * Vec3(1.5, -0.5, 1)}};
+  scene.found.push_back({"rim", drawing, 1});
+  return scene;
+}
+
+TEST(Picture, IsTheSameWhereverAndHoweverLargeTheObjectIs) {
+  RunContext context({.threads = 2});
+  const auto picture = [&](const Vec3& place, double size) {
+    const Scene scene = box_scene(place, size);
+    return picture_of(scene, Stage::found, "", best_view(scene, {}), {}, small_style(), context);
+  };
+  const Image expected = picture(Vec3::Zero(), 1);
+  const std::pair<Vec3, double> others[] = {
+      {{500000, 5400000, 300}, 0.1}, {{0, 0, 0}, 1e39}, {{0, 0, 0}, 1e-70}, {{1e42, 0, 0}, 1e39}};
+  for (const auto& [place, size] : others) {
+    const Image image = picture(place, size);
+    ASSERT_EQ(image.rgba.size(), expected.rgba.size());
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) other += std::abs(image.rgba[i] - expected.rgba[i]) > 24;
+    EXPECT_LT(other, image.rgba.size() / 50) << size;
+  }
+}
+
+TEST(Picture, OneCoordinateOutOfReachIsDrawnAllTheSame) {
+  Scene scene = box_scene(Vec3::Zero(), 1);
+  scene.normalised = scene.input;
+  for (Vec3& p : scene.normalised->positions) p.z() += 1e39;
+  RunContext context({.threads = 2});
+  EXPECT_FALSE(picture_of(scene, Stage::mesh, "", {}, {}, small_style(), context).rgba.empty());
+}
+
+TEST(Stand, RefusesWhatIsNoModel) {
+  Scene scene = box_scene(Vec3::Zero(), 1);
+  for (const char* model : {R"({"features": {"rim": "x"}})", R"({"features": 1})", "[]",
+                            R"({"features": {}, "associations": ["x"]})", R"({"features": {}, "parts": {"a": [1]}})"}) {
+    scene.model = model;
+    EXPECT_THROW(stand_of(scene), UsageError) << model;
+  }
 }
 
 TEST(SkyLight, IsDarkInHollows) {

@@ -10,6 +10,8 @@
 
 #include "base/errors.h"
 #include "io/mesh_io.h"
+#include "scene/buffer.h"
+#include "scene/local_frame.h"
 #include "support/program.h"
 #include "support/schemas.h"
 
@@ -126,6 +128,30 @@ TEST(Scene, OfAFilteredMeshHasItsWorkingSetsOnTheFilteredMesh) {
     for (const Index v : set.vertices) greatest = std::max(greatest, v);
   EXPECT_GE(greatest, scene.input.positions.size());
   EXPECT_FALSE(scene.has_truth);
+}
+
+TEST(Scene, KeepsDistinctPointsFarFromTheOrigin) {
+  SceneOfRun cup("cup --faces 2000", "cup");
+  for (const LocalFrame& frame : {LocalFrame{{500000, 5400000, 300}, 0.001}, LocalFrame{Vec3::Zero(), 1e39}}) {
+    const Scene there = in_world(cup.scene, frame);
+    const std::string text = to_json(there, "test");
+    EXPECT_EQ(test::schema_faults("scene", text), "");
+    const Scene read = read_scene(text, "scene.json");
+    const double near = 1e-5 * 200 * frame.scale + 1e-9 * frame.origin.norm();
+    for (std::size_t v = 0; v < there.input.positions.size(); ++v)
+      EXPECT_LT((read.input.positions[v] - there.input.positions[v]).norm(), near);
+    const auto &line = there.found[0].drawing.lines[0], &again = read.found[0].drawing.lines[0];
+    ASSERT_EQ(line.size(), again.size());
+    for (std::size_t i = 0; i < line.size(); ++i) EXPECT_LT((line[i] - again[i]).norm(), near);
+  }
+}
+
+TEST(Scene, RefusesPointsOutOfReach) {
+  SceneJson buffer = point_buffer(std::vector<Vec3>{{1, 2, 3}, {0, std::numeric_limits<double>::infinity(), 0}});
+  EXPECT_THROW(read_points(buffer), std::invalid_argument);
+  buffer = quantised_buffer(std::vector<Vec3>{{0, 0, 0}, {1, 1, 1}});
+  buffer["min"][0] = 1e200;
+  EXPECT_THROW(read_points(buffer), std::invalid_argument);
 }
 
 TEST(Scene, RefusesWhatIsNone) {
