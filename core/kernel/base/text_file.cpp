@@ -2,6 +2,7 @@
 #include "base/text_file.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -11,6 +12,8 @@
 
 namespace toposcope {
 namespace {
+
+constexpr std::uintmax_t longest_text = std::uintmax_t{1} << 30;
 
 /// What reads YAML and JSON takes UTF-8 for granted.
 void require_utf8(const std::string& text, const std::string& owner) {
@@ -29,6 +32,10 @@ std::string read_text_file(const std::filesystem::path& path, const std::string&
   // A folder opens like a file and reads as empty; a pipe or a device may have no end.
   std::error_code ignored;
   const bool regular = std::filesystem::is_regular_file(path, ignored);
+  if (const std::uintmax_t size = regular ? std::filesystem::file_size(path, ignored) : 0;
+      !ignored && size > longest_text)
+    throw UsageError(what + " '" + path.string() + "' has " + std::to_string(size) + " bytes; at most " +
+                     std::to_string(longest_text) + " are read, check that it is the right file");
   std::ifstream stream;
   if (regular) stream.open(path, std::ios::binary);
   std::ostringstream text;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <nlohmann/json.hpp>
-
 #include "base/errors.h"
+#include "base/json_text.h"
 #include "base/text_file.h"
 #include "lock/run_lock.h"
 
@@ -79,12 +78,12 @@ std::string to_json(const RunLock& lock) {
 
 RunLock read_lock(const std::filesystem::path& file) {
   try {
-    const Json json = Json::parse(read_text_file(file, "lock file"));
+    const Json json = parse_json<Json>(read_text_file(file, "lock file"), file.string());
     if (json.at("schema") != schema_id)
       throw UsageError(file.string() + ": schema: must be '" + schema_id + "'; write the lock again with --lock");
     return lock_of(json);
   } catch (const nlohmann::json::exception& error) {
-    throw UsageError(file.string() + ": is no lock file (" + error.what() + "); write it again with --lock");
+    throw UsageError(file.string() + ": is no lock file (" + json_fault(error) + "); write it again with --lock");
   }
 }
 

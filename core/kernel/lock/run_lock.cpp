@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/json_text.h"
 #include "base/text_file.h"
 #include "io/extension.h"
 #include "io/gltf_uri.h"
@@ -57,7 +58,7 @@ LockedMesh locked_mesh(const fs::path& path) {
   try {
     LockedMesh mesh{locked_file(path), {}};
     if (lower_extension(path) != ".gltf") return mesh;
-    const auto json = nlohmann::json::parse(read_text_file(path, "mesh"), nullptr, false);
+    const auto json = parse_json<nlohmann::json>(read_text_file(path, "mesh"), path.string());
     const std::string name = path.string();
     if (json.is_object() && json.contains("buffers"))
       for (const auto& buffer : json["buffers"])

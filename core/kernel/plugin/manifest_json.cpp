@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/json_text.h"
+#include "base/text_file.h"
 #include "plugin/library.h"
 #include "plugin/manifest.h"
 
@@ -153,6 +153,15 @@ PluginManifest parse(const Json& json) {
   return manifest;
 }
 
+Json manifest_document(const std::filesystem::path& file) {
+  const std::string text = read_text_file(file, "plugin manifest");
+  try {
+    return parse_json<Json>(text, file.string());
+  } catch (const UsageError& error) {
+    throw UsageError(std::string(error.what()) + "; build the plugin again");
+  }
+}
+
 }  // namespace
 
 std::string manifest_to_json(const PluginManifest& manifest) {
@@ -180,10 +189,9 @@ std::string manifest_to_json(const PluginManifest& manifest) {
 }
 
 PluginManifest read_manifest(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw UsageError(file.string() + ": cannot be opened; check that it exists and may be read");
+  const Json json = manifest_document(file);
   try {
-    PluginManifest manifest = parse(Json::parse(stream));
+    PluginManifest manifest = parse(json);
     check_manifest(manifest);
     if (file.filename() != manifest.id + std::string(manifest_suffix))
       throw UsageError("id: '" + manifest.id + "' does not agree with the file's name; a manifest is named <id>" +
@@ -191,8 +199,6 @@ PluginManifest read_manifest(const std::filesystem::path& file) {
     manifest.file = file;
     manifest.library = file.parent_path() / (manifest.id + library_suffix());
     return manifest;
-  } catch (const nlohmann::json::exception& error) {
-    throw UsageError(file.string() + ": is not JSON (" + error.what() + "); build the plugin again");
   } catch (const UsageError& error) {
     throw UsageError(file.string() + ": " + error.what() + "; build the plugin again");
   }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/errors.h"
+#include "base/json_text.h"
 #include "base/text_file.h"
 #include "result/shape_json.h"
 
@@ -34,7 +35,7 @@ StoredResult read_result(const std::filesystem::path& file) {
   StoredResult result;
   result.text = read_text_file(file, "result");
   try {
-    const Json root = Json::parse(result.text);
+    const Json root = parse_json<Json>(result.text, file.string());
     if (root.value("schema", "") != "toposcope.result/1")
       throw UsageError(file.string() + ": 'schema' is not toposcope.result/1; give what toposcope run --out wrote");
     result.mesh = root.at("mesh").at("path").get<std::string>();
@@ -43,7 +44,7 @@ StoredResult read_result(const std::filesystem::path& file) {
     result.model = root.at("model").get<std::string>();
     for (const auto& [name, node] : root.at("features").items()) result.features.push_back(feature_from(name, node));
   } catch (const Json::exception& error) {
-    throw UsageError(file.string() + ": is no result: " + error.what() +
+    throw UsageError(file.string() + ": is no result: " + json_fault(error) +
                      "; give what toposcope run --out wrote (schemas/result.schema.json)");
   }
   return result;

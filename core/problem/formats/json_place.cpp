@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "formats/json_place.h"
 
+#include "base/json_text.h"
+
 namespace toposcope {
 namespace {
 
@@ -76,14 +78,7 @@ class Walk {
 }  // namespace
 
 std::string json_place(std::string_view text, const std::vector<JsonStep>& path) {
-  const std::size_t at = Walk(text).follow(path);
-  std::size_t line = 1, begin = 0;
-  for (std::size_t i = 0; i < at && i < text.size(); ++i)
-    if (text[i] == '\n') {
-      ++line;
-      begin = i + 1;
-    }
-  return std::to_string(line) + ":" + std::to_string(at - begin + 1);
+  return line_and_column(text, Walk(text).follow(path));
 }
 
 }  // namespace toposcope

@@ -3,10 +3,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "base/errors.h"
+#include "base/text_file.h"
 
 namespace toposcope {
 namespace {
@@ -118,14 +117,7 @@ std::string ProblemText::name(const ProblemToken& token) {
 std::string read_problem_text(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw UsageError(path.string() + ": no such file");
-  if (!std::filesystem::is_regular_file(path, error))
-    throw UsageError(path.string() + ": is no file; give a problem file (.json, .cfn, .wcsp, .uai)");
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream)
-    throw UsageError(path.string() + ": cannot be read; check that you may read it and that it is not empty");
-  return std::move(text).str();
+  return read_text_file(path, "problem file");
 }
 
 }  // namespace toposcope

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/json_text.h"
 #include "evaluation/evaluation.h"
 
 namespace toposcope {
@@ -116,7 +117,7 @@ std::string to_csv(const std::vector<Evaluation>& evaluations) {
 std::vector<Table> changes(const Evaluation& evaluation, const std::string& baseline_json, const std::string& file) {
   Table table{"Changed since " + file, {"mesh", "", "before", "now"}, {}, ""};
   try {
-    const nlohmann::json root = nlohmann::json::parse(baseline_json);
+    const nlohmann::json root = parse_json<nlohmann::json>(baseline_json, file);
     if (root.value("schema", "") != "toposcope.evaluation/1")
       throw UsageError(file + ": is no evaluation; --baseline takes the evaluation.json of an earlier one");
     const nlohmann::json* before = find_named(root.at("datasets"), "dataset", evaluation.dataset);
@@ -134,7 +135,7 @@ std::vector<Table> changes(const Evaluation& evaluation, const std::string& base
         ++unknown;
         continue;
       }
-      const Verdicts was = verdicts_of(*old), is = verdicts_of(nlohmann::json::parse(as_json(mesh).dump()));
+      const Verdicts was = verdicts_of(*old), is = verdicts_of(nlohmann::json(as_json(mesh)));
       for (const auto& [name, verdict] : is) {
         const auto at = was.find(name);
         if (at == was.end() || at->second == verdict) continue;
@@ -153,7 +154,7 @@ std::vector<Table> changes(const Evaluation& evaluation, const std::string& base
         before->at("calibration").at("expected_error").get<double>());
     if (unknown > 0) table.note += fmt::format("; {} meshes are new", unknown);
   } catch (const nlohmann::json::exception& error) {
-    throw UsageError(file + ": is no evaluation (" + error.what() +
+    throw UsageError(file + ": is no evaluation (" + json_fault(error) +
                      "); --baseline takes the evaluation.json of an earlier one");
   }
   return {table};

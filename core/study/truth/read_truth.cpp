@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "base/errors.h"
+#include "base/json_text.h"
 #include "base/text_file.h"
 #include "truth/truth.h"
 
@@ -155,13 +155,13 @@ Truth read_truth(const std::filesystem::path& path) {
   const std::string text = read_text_file(path, "truth file");
   const Reader reader(path.string());
   try {
-    nlohmann::json root = nlohmann::json::parse(text);
+    nlohmann::json root = parse_json<nlohmann::json>(text, path.string());
     Truth truth = reader.read(root);
     root.erase("parts");
     truth.document = root.dump();
     return truth;
   } catch (const nlohmann::json::exception& error) {
-    reader.fail("", std::string("is no JSON: ") + error.what());
+    reader.fail("", json_fault(error));
   }
 }
 

@@ -87,7 +87,7 @@ TEST_F(TruthFile, RefusalsNameFileAndMember) {
             "/parameters: 'band' is two radii"},
            {R"({"features": {}, "frame": {"mean_edge": 0}})", "/frame/mean_edge: expected a length above 0"},
        }) {
-    EXPECT_THAT(refusal(text), HasSubstr("cup.truth.json: "));
+    EXPECT_THAT(refusal(text), HasSubstr("cup.truth.json:"));
     EXPECT_THAT(refusal(text), HasSubstr(words));
   }
   EXPECT_THROW(read_truth(folder_ / "absent.truth.json"), UsageError);
