@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "base/errors.h"
+#include "base/json_text.h"
 #include "result/shape_json.h"
 #include "scene/buffer.h"
 #include "scene/local_frame.h"
@@ -123,14 +124,14 @@ Scene scene_from(const SceneJson& root) {
 }  // namespace
 
 Scene read_scene(const std::string& text, const std::string& file) {
-  const auto refusal = [&](const char* what) {
+  const auto refusal = [&](const std::string& what) {
     return UsageError(file + ": is no scene: " + what +
                       "; write it anew with toposcope run --out (schemas/scene.schema.json)");
   };
   try {
-    return scene_from(SceneJson::parse(text));
+    return scene_from(parse_json<SceneJson>(text, file));
   } catch (const SceneJson::exception& error) {
-    throw refusal(error.what());
+    throw refusal(json_fault(error));
   } catch (const std::invalid_argument& error) {
     throw refusal(error.what());
   }
