@@ -164,7 +164,7 @@ void cut_at_top(LabelingOutcome& outcome, double top) {
 int label(const LabelOptions& options) {
   Session session(options);
   if (!options.save.empty()) require_problem_extension(options.save);
-  const ProblemFile file = read_problem(options.problem);
+  const ProblemFile file = read_problem(options.problem, session.context().memory_budget());
   const LabelingProblem& problem = file.problem;
   for (const std::string& warning : file.warnings) session.context().log(LogLevel::warning, warning);
   if (!options.save.empty())

@@ -52,20 +52,21 @@ void require_problem_extension(const fs::path& path) {
                      "file first)");
 }
 
-ProblemFile read_problem(const fs::path& path) {
+ProblemFile read_problem(const fs::path& path, std::uint64_t memory_budget) {
+  memory_budget /= 4;  // labelers make tables of their own from these
   require_problem_extension(path);
   const std::string extension = lower_extension(path), where = path.string();
   const std::string text = read_problem_text(path);
   ProblemFile file;
   if (extension == ".json") {
-    file = read_problem_json(where, text);
+    file = read_problem_json(where, text, memory_budget);
   } else if (extension == ".cfn") {
-    file = read_cfn(where, text);
+    file = read_cfn(where, text, memory_budget);
   } else if (extension == ".wcsp") {
-    file = read_wcsp(where, text);
+    file = read_wcsp(where, text, memory_budget);
   } else {
     const fs::path evidence = where + ".evid";
-    file = read_uai(where, text);
+    file = read_uai(where, text, memory_budget);
     if (fs::exists(evidence)) read_uai_evidence(file.problem, evidence.string(), read_problem_text(evidence));
   }
   return file;

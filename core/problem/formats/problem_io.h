@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -9,10 +11,13 @@
 
 namespace toposcope {
 
+inline constexpr std::uint64_t unlimited_memory = std::numeric_limits<std::uint64_t>::max();
+
 /// Reads .json (schemas/problem.schema.json), toulbar2's .cfn and .wcsp, and .uai with its evidence in <file>.evid.
 /// Variables of the last three may not be missing. The locale plays no role.
+/// \param memory_budget  bytes that a run may take; a quarter is for all tables together
 /// \throw UsageError  with file, line, value, constraint and remedy; also for functions that are not supported
-ProblemFile read_problem(const std::filesystem::path& path);
+ProblemFile read_problem(const std::filesystem::path& path, std::uint64_t memory_budget = unlimited_memory);
 
 /// Writes the format that the extension names, whole or not at all. .json loses nothing; .cfn and .wcsp have exclusions
 /// as pairwise functions and costs as decimals; .uai has factors exp(-cost).

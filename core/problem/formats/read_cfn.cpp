@@ -22,8 +22,8 @@ bool begins_number(std::string_view word) {
 
 class CfnReader {
  public:
-  CfnReader(const std::string& name, std::string_view bytes)
-      : text_(name, bytes, {":,", "{}[]", true, true}), builder_(text_) {}
+  CfnReader(const std::string& name, std::string_view bytes, std::uint64_t memory_budget)
+      : text_(name, bytes, {":,", "{}[]", true, true}), builder_(text_, memory_budget) {}
 
   ProblemFile read() {
     need_open(text_, "the problem");
@@ -239,6 +239,7 @@ class CfnReader {
       if (!same)
         text_.fail(sharing.of, "function '" + sharing.name + "' uses the costs of " + ProblemText::name(sharing.of) +
                                    ", whose variables have other domain sizes");
+      builder_.table_size(sharing.of, sharing.scope, most_table_entries);
       std::vector<double> costs = sharing.scope.size() < 2
                                       ? found->second.costs
                                       : builder_.problem().constraints[found->second.constraint].costs;
@@ -258,8 +259,8 @@ class CfnReader {
 
 }  // namespace
 
-ProblemFile read_cfn(const std::string& name, std::string_view text) {
-  return CfnReader(name, text).read();
+ProblemFile read_cfn(const std::string& name, std::string_view text, std::uint64_t memory_budget) {
+  return CfnReader(name, text, memory_budget).read();
 }
 
 }  // namespace toposcope

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "base/errors.h"
+#include "base/json_text.h"
 #include "base/nearest_name.h"
 #include "formats/json_place.h"
 #include "formats/problem_formats.h"
@@ -20,23 +20,8 @@ using Json = nlohmann::json;
 
 class JsonReader {
  public:
-  JsonReader(const std::string& name, std::string_view text) : name_(name), text_(text) {
-    try {
-      root_ = Json::parse(text);
-    } catch (const Json::parse_error& error) {
-      std::size_t line = 1, column = 1;
-      for (std::size_t i = 0; i + 1 < error.byte && i < text.size(); ++i) {
-        column = text[i] == '\n' ? 1 : column + 1;
-        line += text[i] == '\n' ? 1 : 0;
-      }
-      const std::string what = error.what();
-      const std::size_t detail = what.find(": ", what.find("column"));
-      throw UsageError(name + ":" + std::to_string(line) + ":" + std::to_string(column) +
-                       ": is no JSON: " + (detail == what.npos ? what : what.substr(detail + 2)));
-    } catch (const Json::exception& error) {
-      throw UsageError(name + ": " + error.what() + "; numbers are at most about 1.8e308");
-    }
-  }
+  JsonReader(const std::string& name, std::string_view text, std::uint64_t memory_budget)
+      : memory_budget_(memory_budget), name_(name), text_(text), root_(parse_json<Json>(text, name)) {}
 
   ProblemFile read() {
     if (!root_.is_object() || !root_.contains("schema") || root_["schema"] != "toposcope.problem/1")
@@ -180,6 +165,11 @@ class JsonReader {
     if (count > most_candidates)
       fail_at({"candidate_count"}, "'candidate_count' is " + std::to_string(count) + "; at most " +
                                        std::to_string(most_candidates) + " candidates are held in memory");
+    const std::uint64_t bytes = std::uint64_t{count} * problem.conflict_words() * sizeof(std::uint64_t);
+    if (bytes > memory_budget_)
+      fail_at({"candidate_count"}, "the exclusions of " + std::to_string(count) + " candidates need " +
+                                       std::to_string(bytes) + " bytes, and a problem may take " +
+                                       std::to_string(memory_budget_));
     problem.conflict_bits.assign(count * problem.conflict_words(), 0);
     if (!root_.contains("conflicts")) return;
     each(root_, "conflicts", [&](const Json& pair) {
@@ -198,6 +188,7 @@ class JsonReader {
   }
 
   static constexpr Index most_candidates = 200'000;  // 5 GB of conflicts
+  std::uint64_t memory_budget_;
   const std::string& name_;
   std::string_view text_;
   Json root_;
@@ -207,8 +198,8 @@ class JsonReader {
 
 }  // namespace
 
-ProblemFile read_problem_json(const std::string& name, std::string_view text) {
-  return JsonReader(name, text).read();
+ProblemFile read_problem_json(const std::string& name, std::string_view text, std::uint64_t memory_budget) {
+  return JsonReader(name, text, memory_budget).read();
 }
 
 }  // namespace toposcope

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t most = 1 << 30;
 
-std::vector<double> read_table(ProblemText& text, const ProblemBuilder& builder, const std::vector<Index>& scope) {
+std::vector<double> read_table(ProblemText& text, ProblemBuilder& builder, const std::vector<Index>& scope) {
   const ProblemToken at = text.need("the number of a function's entries");
   const auto announced = static_cast<std::size_t>(
       text.integer(at, "the number of a function's entries", 0, std::numeric_limits<std::int64_t>::max()));
@@ -34,9 +34,9 @@ std::vector<double> read_table(ProblemText& text, const ProblemBuilder& builder,
 
 }  // namespace
 
-ProblemFile read_uai(const std::string& name, std::string_view bytes) {
+ProblemFile read_uai(const std::string& name, std::string_view bytes, std::uint64_t memory_budget) {
   ProblemText text(name, bytes, {});
-  ProblemBuilder builder(text);
+  ProblemBuilder builder(text, memory_budget);
   const ProblemToken kind = text.need("MARKOV or BAYES");
   if (kind.text != "MARKOV" && kind.text != "BAYES")
     text.fail(kind, "the file begins with " + ProblemText::name(kind) + "; supported are MARKOV and BAYES");

@@ -12,7 +12,8 @@ namespace {
 
 class WcspReader {
  public:
-  WcspReader(const std::string& name, std::string_view bytes) : text_(name, bytes, {}), builder_(text_) {}
+  WcspReader(const std::string& name, std::string_view bytes, std::uint64_t memory_budget)
+      : text_(name, bytes, {}), builder_(text_, memory_budget) {}
 
   ProblemFile read() {
     const std::int64_t functions = header();
@@ -86,12 +87,16 @@ class WcspReader {
         text_.fail(count_at, "number " + std::to_string(-count) +
                                  " of the shared cost functions is not defined before, or has other domain sizes; "
                                  "shared functions count from 1 in the order of the file");
+      builder_.table_size(at, scope, most_table_entries);
       table.costs = shared_[used].costs;
     } else {
       table.costs.assign(builder_.table_size(at, scope, most_table_entries), builder_.cost(default_cost));
       for (std::int64_t t = 0; t < count; ++t) tuple(scope, table.costs);
     }
-    if (shared) shared_.push_back(table);
+    if (shared) {
+      builder_.table_size(at, scope, most_table_entries);
+      shared_.push_back(table);
+    }
     builder_.add_table(at, std::move(name), std::move(scope), std::move(table.costs));
   }
 
@@ -120,8 +125,8 @@ class WcspReader {
 
 }  // namespace
 
-ProblemFile read_wcsp(const std::string& name, std::string_view text) {
-  return WcspReader(name, text).read();
+ProblemFile read_wcsp(const std::string& name, std::string_view text, std::uint64_t memory_budget) {
+  return WcspReader(name, text, memory_budget).read();
 }
 
 }  // namespace toposcope

@@ -21,11 +21,20 @@ void ProblemBuilder::add_variable(const ProblemToken& at, std::string name, std:
   if (static_cast<std::size_t>(domain) > most_table_entries)
     text_.fail(at, "variable '" + name + "' has " + std::to_string(domain) + " values; at most " +
                        std::to_string(most_table_entries) + " are held in memory");
+  take(at, static_cast<std::size_t>(domain));
   LabelingVariable& variable = problem().variables.emplace_back();
   variable.name = std::move(name);
   variable.optional = false;
   variable.costs.assign(static_cast<std::size_t>(domain), 0);
   variable.value_names = std::move(value_names);
+}
+
+void ProblemBuilder::take(const ProblemToken& at, std::size_t entries) {
+  const std::uint64_t bytes = std::uint64_t{entries} * sizeof(double);
+  if (bytes > memory_budget_ - taken_)
+    text_.fail(at, "the tables up to here need " + std::to_string(taken_ + bytes) + " bytes, and a problem may take " +
+                       std::to_string(memory_budget_) + "; split functions into ones of fewer variables");
+  taken_ += bytes;
 }
 
 void ProblemBuilder::check_scope(const ProblemToken& at, std::span<const Index> scope) const {
@@ -35,7 +44,7 @@ void ProblemBuilder::check_scope(const ProblemToken& at, std::span<const Index> 
                          "' twice; a function is over different variables");
 }
 
-std::size_t ProblemBuilder::table_size(const ProblemToken& at, std::span<const Index> scope, std::size_t most) const {
+std::size_t ProblemBuilder::table_size(const ProblemToken& at, std::span<const Index> scope, std::size_t most) {
   std::size_t entries = 1;
   for (const Index v : scope) {
     entries *= domain(v);
@@ -44,12 +53,14 @@ std::size_t ProblemBuilder::table_size(const ProblemToken& at, std::span<const I
                          std::to_string(most) +
                          " entries, which is the most that is held; split it into functions of fewer variables");
   }
+  take(at, entries);
   return entries;
 }
 
 void ProblemBuilder::add_table(const ProblemToken& at, std::string name, std::vector<Index> scope,
                                std::vector<double> costs) {
   check_scope(at, scope);
+  if (scope.size() < 2) taken_ -= costs.size() * sizeof(double);  // added to what is there
   if (scope.empty()) {
     problem().constant += costs[0];
   } else if (scope.size() == 1) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
@@ -24,7 +25,8 @@ using CostFunction = std::function<double(std::span<const Index> values)>;
 /// least that the others may give is known at the file's end, so functions in intension wait for `finish`.
 class ProblemBuilder {
  public:
-  explicit ProblemBuilder(const ProblemText& text) : text_(text) {}
+  /// \param memory_budget  bytes that all tables together may take
+  ProblemBuilder(const ProblemText& text, std::uint64_t memory_budget) : text_(text), memory_budget_(memory_budget) {}
 
   ProblemFile& file() { return file_; }
   LabelingProblem& problem() { return file_.problem; }
@@ -39,8 +41,9 @@ class ProblemBuilder {
 
   /// \throw UsageError  a variable twice
   void check_scope(const ProblemToken& at, std::span<const Index> scope) const;
-  /// \return entries of the dense table \throw UsageError  more than `most`
-  std::size_t table_size(const ProblemToken& at, std::span<const Index> scope, std::size_t most) const;
+  /// Asked before a table is made or copied: it is counted from here on.
+  /// \return entries of the dense table \throw UsageError  more than `most`, or all tables more than the budget
+  std::size_t table_size(const ProblemToken& at, std::span<const Index> scope, std::size_t most);
 
   /// Adds a dense table of costs (of `cost()`), row-major. Without scope it is added to the constant, with one variable
   /// to the variable's own costs.
@@ -63,8 +66,10 @@ class ProblemBuilder {
 
  private:
   void find_threshold();
+  void take(const ProblemToken& at, std::size_t entries);
 
   const ProblemText& text_;
+  std::uint64_t memory_budget_, taken_ = 0;  ///< bytes
   ProblemFile file_;
   std::vector<std::function<void()>> first_, last_;
   double threshold_ = std::numeric_limits<double>::infinity();
