@@ -211,7 +211,8 @@ bool descend(const CostTables& tables, ConditionalCosts& costs, Deadline& deadli
   return true;
 }
 
-void offer_neighbours(const CostTables& tables, const ConditionalCosts& costs, BestLabelings& best) {
+bool offer_neighbours(const CostTables& tables, const ConditionalCosts& costs, BestLabelings& best,
+                      Deadline& deadline) {
   const LabelingProblem& problem = tables.problem();
   Labeling labeling{costs.values(), 0};
   const auto offer = [&] {
@@ -227,7 +228,9 @@ void offer_neighbours(const CostTables& tables, const ConditionalCosts& costs, B
     labeling.values[v] = value;
     offer();
     labeling.values[v] = costs.values()[v];
+    if (deadline.reached()) return false;  // each is summed anew, over all variables and constraints
   }
+  return true;
 }
 
 }  // namespace toposcope

@@ -74,7 +74,7 @@ class Search {
       costs.reset(best_.labelings()[0].values);
     }
     descend(tables_, costs, deadline_);
-    if (costs.broken() == 0) offer_neighbours(tables_, costs, best_);
+    if (costs.broken() == 0) offer_neighbours(tables_, costs, best_, deadline_);
     return make_schedule(tables_, costs);
   }
 

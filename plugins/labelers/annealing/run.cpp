@@ -136,7 +136,7 @@ class Run {
   void settle() {
     if (!descend(tables_, costs_, deadline_)) stopped_ = true;
     start(std::vector<Index>(costs_.values()));
-    offer_neighbours(tables_, costs_, best_);
+    if (!offer_neighbours(tables_, costs_, best_, deadline_)) stopped_ = true;
   }
 
   const CostTables& tables_;

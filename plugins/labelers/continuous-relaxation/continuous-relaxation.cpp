@@ -138,7 +138,7 @@ class Run {
     ConditionalCosts costs(tables_);
     costs.reset(values);
     improved_ = descend(tables_, costs, deadline_);
-    offer_neighbours(tables_, costs, best_);
+    offer_neighbours(tables_, costs, best_, deadline_);
   }
 
   void conclude() {

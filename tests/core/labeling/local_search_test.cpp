@@ -136,7 +136,7 @@ TEST(ConditionalCosts, DescentEndsWhereNoSingleChangeIsBetter) {
     costs.reset(std::vector<Index>(problem.variables.size(), 0));
     ASSERT_TRUE(descend(tables, costs, deadline));
     BestLabelings best(3, forbidden);
-    offer_neighbours(tables, costs, best);
+    EXPECT_TRUE(offer_neighbours(tables, costs, best, deadline));
     if (costs.broken() != 0) continue;
     const double cost = cost_of(problem, costs.values());
     std::vector<Index> values = costs.values();

@@ -108,6 +108,7 @@ class ConditionalCosts {
 bool descend(const CostTables& tables, ConditionalCosts& costs, Deadline& deadline);
 
 /// Offers the labelling, and each that differs in one variable, breaks nothing and may enter the list.
-void offer_neighbours(const CostTables& tables, const ConditionalCosts& costs, BestLabelings& best);
+/// \return false when stopped
+bool offer_neighbours(const CostTables& tables, const ConditionalCosts& costs, BestLabelings& best, Deadline& deadline);
 
 }  // namespace toposcope
