@@ -9,7 +9,9 @@
 namespace toposcope {
 namespace {
 constexpr std::size_t max_groups = 1'000'000;
-}
+// Of sets to beginnings of groups: some seconds. Many sets to a group may have billions of beginnings and no end.
+constexpr std::size_t max_trials = 200'000'000;
+}  // namespace
 
 WorkingSetGroups::WorkingSetGroups(const ModelFeature& feature, const std::vector<std::string>& types,
                                    const MeasuredWorkingSets& sets, const std::vector<bool>& usable) {
@@ -35,6 +37,11 @@ void WorkingSetGroups::extend(const ModelFeature& feature, const std::vector<std
                        "fewer sets");
     return;
   }
+  trials_ += of_type_[position].size();
+  if (trials_ > max_trials)
+    throw UsageError(feature.where.str() + ": feature '" + feature.name + "' has too many groups of " +
+                     std::to_string(of_type_.size()) + " working sets to look through on this mesh; name fewer " +
+                     "working-set types, or let the classifier give fewer sets");
   for (Index s : of_type_[position]) {
     bool fits = true;
     for (std::size_t i = 0; i < position && fits; ++i)

@@ -15,7 +15,7 @@ class WorkingSetGroups {
  public:
   /// \param types   of the group's sets: the feature's worksets or those of its second look
   /// \param usable  per set; empty: all are
-  /// \throw UsageError  over a million groups
+  /// \throw UsageError  over a million groups, or too many beginnings of groups to look through
   WorkingSetGroups(const ModelFeature& feature, const std::vector<std::string>& types, const MeasuredWorkingSets& sets,
                    const std::vector<bool>& usable = {});
 
@@ -36,7 +36,7 @@ class WorkingSetGroups {
   std::vector<std::vector<Index>> of_type_;
   std::vector<Index> group_;
   std::vector<Index> groups_;  ///< one after the other
-  std::size_t chosen_from_ = 0;
+  std::size_t chosen_from_ = 0, trials_ = 0;
 };
 
 /// The points of a group of working sets, one set after the other.
