@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -16,6 +17,8 @@ using namespace toposcope;
 using namespace toposcope::normalise;
 
 constexpr Index most_faces = 100000000;
+// Of a mesh at work, with its samples.
+constexpr double bytes_per_face = 400;
 // Rounds that may be added while there are too many faces.
 constexpr int more_rounds = 20;
 // Of a mesh whose edges are longer than the surface has room for.
@@ -44,6 +47,7 @@ class Normalise final : public MeshFilter {
       context.log(LogLevel::warning, "normalise: the surface has no area to speak of; it is left alone");
       return;
     }
+    require_memory(mesh, goal.edge, context);
     const InputSurface surface(mesh, crease_angle_, goal.edge);
     // The shape changes by no more than the number of faces demands: at first collapses by a tenth of an edge, flips
     // and moves by half of that.
@@ -93,9 +97,26 @@ class Normalise final : public MeshFilter {
     Goal goal{faces_, 0, at_samples * max_change_ * mesh.box.diagonal(), shape_weight_};
     const double edge = wanted_edge(mesh);
     if (faces_ == 0)
-      goal.faces = static_cast<Index>(std::max(fewest_faces, std::round(4 / std::sqrt(3.0) * area / (edge * edge))));
+      goal.faces = static_cast<Index>(
+          std::clamp(std::round(4 / std::sqrt(3.0) * area / (edge * edge)), fewest_faces, double{most_faces}));
     goal.edge = std::sqrt(4 / std::sqrt(3.0) * area / goal.faces);
     return goal;
+  }
+
+  // Splits of long edges come before all collapses: a face needs as many as its area or its longest edge asks for.
+  static void require_memory(const MeshView& mesh, double edge, const Context& context) {
+    double faces = 0;
+    for (const Triangle& t : mesh.triangles) {
+      const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+      const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+      faces += 1 + std::max(2 / std::sqrt(3.0) * (b - a).cross(c - a).norm() / (edge * edge), longest / edge);
+    }
+    if (faces <= most_faces && faces * bytes_per_face <= static_cast<double>(context.memory_budget())) return;
+    char needed[96];
+    std::snprintf(needed, sizeof needed, "about %.3g faces and %.3g bytes", faces, faces * bytes_per_face);
+    throw std::runtime_error("edges of the wanted length need " + std::string(needed) + ", and this run may take " +
+                             std::to_string(most_faces) + " faces and " + std::to_string(context.memory_budget()) +
+                             " bytes; give a longer edge or fewer faces");
   }
 
   static void hand_over(const SurfaceMesh& mesh, const MeshView& input, Context& context, MeshSink& sink) {
