@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/file_name.h"
 
+#include <algorithm>
+
 #include "base/printable.h"
 
 namespace toposcope {
@@ -11,7 +13,7 @@ std::string file_name(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = printable_length(text.substr(at));
     const bool plain = length > 0 && std::string_view("/\\:*?\"<>|%#\n\t").find(text[at]) == std::string_view::npos;
-    if (name.size() + length > most_bytes) break;
+    if (name.size() + std::max<std::size_t>(length, 1) > most_bytes) break;
     if (plain)
       name += text.substr(at, length);
     else

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/mesh_io.h"
@@ -51,16 +52,21 @@ std::string to_text(const Result& result) {
                                               failed.type, failed.residual, failed.unit, failed.tolerance)
                                 : fmt::format("  {:<31}{} {}: {}\n", "", failed.name, failed.type, failed.why);
   }
-  text += fmt::format("\n  {:<6}{:<22}{:<34}{:>10} {:>10} {:<7}{:<12}{:>6}\n", "", "relationship", "features",
-                      "residual", "tolerance", "unit", "", "prob.");
+  std::size_t name = 5, type = 21;  // the columns are as wide as what stands in them
+  for (const RelationReport& report : result.relations) {
+    name = std::max(name, report.name.size());
+    type = std::max(type, report.type.size());
+  }
+  text += fmt::format("\n  {:<{}} {:<{}} {:<34}{:>10} {:>10} {:<7}{:<12}{:>6}\n", "", name, "relationship", type,
+                      "features", "residual", "tolerance", "unit", "", "prob.");
   for (const RelationReport& report : result.relations) {
     const std::string features = fmt::format("{}", fmt::join(report.features, ", "));
     if (report.tested && report.applicable)
-      text += fmt::format("  {:<6}{:<22}{:<34}{:>10.4g} {:>10.4g} {:<7}{:<12}{:>6.3f}\n", report.name, report.type,
-                          features, report.residual, report.tolerance, report.unit,
+      text += fmt::format("  {:<{}} {:<{}} {:<34}{:>10.4g} {:>10.4g} {:<7}{:<12}{:>6.3f}\n", report.name, name,
+                          report.type, type, features, report.residual, report.tolerance, report.unit,
                           report.satisfied ? "satisfied" : "not met", report.probability);
     else
-      text += fmt::format("  {:<6}{:<22}{:<34}{}\n", report.name, report.type, features, report.why);
+      text += fmt::format("  {:<{}} {:<{}} {:<34}{}\n", report.name, name, report.type, type, features, report.why);
   }
   return text;
 }

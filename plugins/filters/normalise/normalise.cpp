@@ -47,7 +47,7 @@ class Normalise final : public MeshFilter {
       context.log(LogLevel::warning, "normalise: the surface has no area to speak of; it is left alone");
       return;
     }
-    require_memory(mesh, goal.edge, context);
+    if (faces_ == 0) require_memory(mesh, goal.edge, context);
     const InputSurface surface(mesh, crease_angle_, goal.edge);
     // The shape changes by no more than the number of faces demands: at first collapses by a tenth of an edge, flips
     // and moves by half of that.
