@@ -128,8 +128,7 @@ style: deps
 lint: style
 	@mkdir -p build
 	@cmake --preset lint > build/lint.log 2>&1 || { cat build/lint.log; exit 1; }
-	git ls-files 'core/*.cpp' 'plugins/*.cpp' 'tests/core/*.cpp' 'tests/plugins/*.cpp' 'tests/support/*.cpp' | \
-	  xargs -P $(JOBS) -n 4 clang-tidy -p build/lint --quiet
+	./scripts/lint -j $(JOBS)
 
 clean:
 	rm -rf build demo evaluation

@@ -38,6 +38,7 @@ struct Layout {
   template <class M>
   void add(const char* name, const M& member) {
     const auto offset = reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&object);
+    // A member may be a pointer, whose own size is meant. NOLINTNEXTLINE(bugprone-sizeof-expression)
     members.push_back({name, static_cast<std::size_t>(offset), sizeof(M), alignof(M)});
   }
   /// \throw nothing, but ends the program where bytes are left over: a member is not recorded
@@ -59,7 +60,7 @@ struct Layout {
 /// Index in the virtual table of a virtual function (Itanium C++ ABI 2.3: one more than its offset in bytes).
 template <class Function>
 std::size_t slot(Function function) {
-  std::size_t words[2];
+  std::size_t words[2]{};
   static_assert(sizeof words == sizeof function);
   std::memcpy(words, &function, sizeof words);
   if (words[0] % 2 == 0) fail("a recorded function is not virtual");
