@@ -16,6 +16,7 @@ void advise_huge_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_
   // Whole pages of our own only; a refusal changes nothing but the speed.
   const auto first = (reinterpret_cast<std::uintptr_t>(begin) + page - 1) / page * page;
   const auto last = (reinterpret_cast<std::uintptr_t>(begin) + bytes) / page * page;
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): a page within the array
   madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
 #endif
 }

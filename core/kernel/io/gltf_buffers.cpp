@@ -154,10 +154,11 @@ void GltfBuffers::fill_in(const GltfValue& sparse, std::size_t type, std::size_t
   const GltfValue places = sparse["indices"];
   const Elements at = elements(places, type_of(places), count, 1);
   const Elements from = elements(sparse["values"], type, count, components);
+  const std::size_t elements_count = numbers.size() / components;
   std::vector<double> index(count);
   decode(at.type, at.data, count, at.stride, 1, false, index.data());
   for (std::size_t i = 0; i < count; ++i) {
-    if (!(index[i] >= 0) || index[i] >= static_cast<double>(numbers.size() / components))
+    if (!(index[i] >= 0) || index[i] >= static_cast<double>(elements_count))
       places.fail("name an element that the accessor does not have; the file is damaged");
     decode(type, from.data + i * from.stride, 1, from.stride, components, false,
            numbers.data() + static_cast<std::size_t>(index[i]) * components);

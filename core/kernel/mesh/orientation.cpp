@@ -40,8 +40,8 @@ class Orienter {
     for (Index f = 0; f < triangles_.size(); ++f)
       if (components_.of_face[f] == Gluing::none) discover(f);
     for (Component& c : found_) measure(c);
-    for (std::size_t c = 0; c < found_.size(); ++c)
-      if (should_turn(found_[c])) turn(found_[c]);
+    for (const Component& c : found_)
+      if (should_turn(c)) turn(c);
     for (const bool turned : turned_) components_.turned_faces += turned;
     components_.count = static_cast<Index>(found_.size());
     return turned_;

@@ -151,7 +151,7 @@ class Explainer {
   struct Price {
     std::size_t forbidden;
     double cost;
-    auto operator<=>(const Price&) const = default;
+    auto operator<=>(const Price&) const = default;  // NOLINT(modernize-use-nullptr): the check misreads <=>
   };
   Price price_over_missing(const Labeling& labeling, Index v) const {
     const LabelingVariable& variable = posed_.problem.variables[v];

@@ -22,10 +22,10 @@ struct ProblemToken {
 class ProblemText {
  public:
   struct Syntax {
-    std::string_view separators = "";  ///< beside white space
-    std::string_view single = "";      ///< characters that are words by themselves
-    bool comments = false;             ///< '#' at the begin of a line, '//' anywhere, to the line's end
-    bool quotes = false;               ///< a word may stand between double quotes
+    std::string_view separators;  ///< beside white space
+    std::string_view single;      ///< characters that are words by themselves
+    bool comments = false;        ///< '#' at the begin of a line, '//' anywhere, to the line's end
+    bool quotes = false;          ///< a word may stand between double quotes
   };
   /// \param file, text  must outlive the object
   ProblemText(const std::string& file, std::string_view text, const Syntax& syntax)

@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path place_of(const fs::path& given, const StoredResult& result, const fs::path& file) {
-  const fs::path mesh = given.empty() ? result.mesh : given;
+  fs::path mesh = given.empty() ? result.mesh : given;
   std::error_code ignored;
   if (!fs::is_regular_file(mesh, ignored))
     throw MeshError(file.string() + ": its mesh " + mesh.string() +

@@ -212,7 +212,8 @@ void check_airplane(const Airplane& a) {
             "give shorter ones, a lower or less swept wing, or more room between wing and tail");
     return;
   }
-  const double station = a.engine_station * a.wing.span, outermost = station * (a.engines / 2);
+  const int engines_a_side = a.engines / 2;
+  const double station = a.engine_station * a.wing.span, outermost = station * engines_a_side;
   require(station >= a.radius + a.engine_radius + a.fillet, airplane_name, "engine_station", a.engine_station,
           "the engines must clear the fuselage", "move them outwards");
   require(outermost <= 0.85 * a.wing.span, airplane_name, "engine_station", a.engine_station,

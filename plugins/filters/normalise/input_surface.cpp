@@ -149,8 +149,7 @@ InputSurface::Place InputSurface::on_curve(Index curve, const Vec3& x) const {
   const auto closest = [&](Index h) { return closest_on_segment(mesh_.positions[from(h)], mesh_.positions[to(h)], x); };
   SegmentPoint best = closest(curve);
   double least = (best.point - x).squaredNorm();
-  for (bool nearer = true; nearer;) {
-    nearer = false;
+  for (;;) {
     if (best.t > 0 && best.t < 1) break;
     const Index next = beyond(curve, best.t <= 0 ? from(curve) : to(curve));
     if (next == no_index) break;
@@ -160,7 +159,6 @@ InputSurface::Place InputSurface::on_curve(Index curve, const Vec3& x) const {
     best = other;
     least = d;
     curve = next;
-    nearer = true;
   }
   return {curve, best.point};
 }
