@@ -2,12 +2,14 @@
 #include "io/mesh_io.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/errors.h"
 #include "io/extension.h"
 #include "io/file_bytes.h"
 #include "io/readers.h"
 #include "io/unicode.h"
+#include "mesh/sound.h"
 
 namespace toposcope {
 namespace {
@@ -66,7 +68,8 @@ Mesh read_mesh(const std::filesystem::path& path, Context* context) {
 }
 
 RepairedMesh repaired_mesh(TriangleSoup soup, const std::string& name, Context* context) {
-  const RepairReport report = repair(soup, name);
+  const std::optional<RepairReport> sound = examine(soup, context);
+  const RepairReport report = sound ? *sound : repair(soup, name);
   if (context && in_pieces(report, soup.triangles.size()))
     context->log(LogLevel::warning, name + ": falls into " + std::to_string(report.components) + " components of " +
                                         std::to_string(soup.triangles.size()) +

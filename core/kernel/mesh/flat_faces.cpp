@@ -15,12 +15,6 @@ namespace {
 /// Height over the longest side, as part of it: below this the corners lie on a line, to rounding.
 constexpr double flat = 1e-10;
 
-bool is_flat(const std::vector<Vec3>& positions, const Triangle& triangle) {
-  const auto& [a, b, c] = triangle;
-  const Vec3 u = positions[b] - positions[a], v = positions[c] - positions[a];
-  return u.cross(v).norm() <= flat * std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
-}
-
 /// A flat face waits until the face beyond its longest side is not flat any more, for only then a flip leaves fewer
 /// flat faces. Whoever is mended calls its neighbours: each face is looked at a few times, not once a pass.
 class Flattener {
@@ -142,6 +136,12 @@ std::vector<Index> flat_faces_of(const TriangleSoup& soup) {
 }
 
 }  // namespace
+
+bool is_flat(const std::vector<Vec3>& positions, const Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  const Vec3 u = positions[b] - positions[a], v = positions[c] - positions[a];
+  return u.cross(v).norm() <= flat * std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
+}
 
 FlatFaces remove_flat_faces(TriangleSoup& soup) {
   const std::vector<Index> found = flat_faces_of(soup);

@@ -5,6 +5,9 @@
 
 namespace toposcope {
 
+/// Whether the corners of a triangle lie on a line, to rounding.
+bool is_flat(const std::vector<Vec3>& positions, const Triangle& triangle);
+
 struct FlatFaces {
   Index removed = 0;  ///< flipped with the neighbour at their longest side, or dropped at the border
   Index kept = 0;     ///< neither could be done without changing the surface
