@@ -42,6 +42,7 @@ RunLock lock_of(const Json& json) {
   lock.program_version = json.at("program").at("version");
   lock.seed = json.at("seed");
   lock.pipeline = json.at("pipeline");
+  if (json.contains("resolution")) lock.resolution = texts_of(json["resolution"]);  // older ones do not
   lock.probability = texts_of(json.at("probability"));
   lock.model = file_of(json.at("model"));
   for (const Json& each : json.at("plugins"))
@@ -69,6 +70,7 @@ std::string to_json(const RunLock& lock) {
                      {"program", {{"version", lock.program_version}}},
                      {"seed", lock.seed},
                      {"pipeline", lock.pipeline},
+                     {"resolution", Json(lock.resolution)},
                      {"probability", Json(lock.probability)},
                      {"model", to_json(lock.model)},
                      {"plugins", plugins},

@@ -10,6 +10,7 @@
 #include "io/extension.h"
 #include "io/gltf_uri.h"
 #include "lock/sha256.h"
+#include "pipeline/resolution.h"
 #include "pipeline/stations.h"
 #include "plugin/option_check.h"
 #include "probability/probability_options.h"
@@ -117,6 +118,14 @@ std::string ids(const std::vector<LockedPlugin>& plugins) {
   return all;
 }
 
+std::map<std::string, std::string> texts_of(std::span<const OptionRow> table, const std::vector<OptionValue>& values) {
+  std::map<std::string, std::string> texts;
+  for (const OptionValue& value : values)
+    for (const OptionRow& row : table)
+      if (row.name == value.name) texts[row.name] = to_string(row, value);
+  return texts;
+}
+
 }  // namespace
 
 RunLock lock_run(const std::string& program_version, std::uint64_t seed, const PipelineManifest& pipeline,
@@ -125,9 +134,8 @@ RunLock lock_run(const std::string& program_version, std::uint64_t seed, const P
   lock.program_version = program_version;
   lock.seed = seed;
   lock.pipeline = pipeline.name;
-  for (const OptionValue& value : pipeline.probability)
-    for (const OptionRow& row : probability_option_table())
-      if (row.name == value.name) lock.probability[row.name] = to_string(row, value);
+  lock.resolution = texts_of(resolution_option_table(), pipeline.resolution);
+  lock.probability = texts_of(probability_option_table(), pipeline.probability);
   lock.model = locked_file(model.file);
   lock.plugins = locked_plugins(pipeline, model, catalog);
   for (const fs::path& mesh : meshes) lock.meshes.push_back(locked_mesh(mesh));
@@ -139,6 +147,7 @@ void require_same(const RunLock& locked, const RunLock& now, const fs::path& loc
   differences.compare(2, "program version", locked.program_version, now.program_version);
   differences.compare(2, "seed", std::to_string(locked.seed), std::to_string(now.seed));
   differences.compare(2, "pipeline", locked.pipeline, now.pipeline);
+  differences.compare(2, "resolution", locked.resolution, now.resolution);
   differences.compare(2, "probability", locked.probability, now.probability);
   differences.compare(2, "model", locked.model, now.model);
   if (ids(locked.plugins) != ids(now.plugins)) {

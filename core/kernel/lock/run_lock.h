@@ -36,7 +36,7 @@ struct RunLock {
   std::string program_version;
   std::uint64_t seed = 1;
   std::string pipeline;  ///< its name; what it says is in the plugins' options
-  std::map<std::string, std::string> probability;
+  std::map<std::string, std::string> resolution, probability;
   LockedFile model;
   std::vector<LockedPlugin> plugins;  ///< in the order in which the run uses them
   std::vector<LockedMesh> meshes;

@@ -19,7 +19,7 @@ Analysis construct(const Mesh& mesh, const Model& model, const Stations& station
   Stopwatch watch;
   const auto lap = [&](const char* station) { analysis.timings.emplace_back(station, watch.lap_ms()); };
 
-  analysis.mesh = apply_filters(mesh, stations.filters, context);
+  analysis.mesh = prepare_mesh(mesh, stations, context);
   lap("filter");
   const ModelRun run{analysis.mesh.view(), model, stations, context};
   analysis.sets = MeasuredWorkingSets(classify_mesh(run.mesh, stations.working_sets, context), run);

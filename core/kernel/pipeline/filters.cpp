@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "plugin/guard.h"
+#include "toposcope/geometry/large_array.h"
 
 namespace toposcope {
 namespace {
@@ -38,12 +39,8 @@ void carry_on(TriangleSoup& soup, const MeshView& input, const std::string& filt
   }
 }
 
-}  // namespace
-
-PreparedMesh apply_filters(const Mesh& mesh, std::span<const FilterStation> filters, Context& context) {
-  PreparedMesh prepared;
-  prepared.input = &mesh;
-  prepared.origin.resize(mesh.view().face_count());
+void apply(std::span<const FilterStation> filters, PreparedMesh& prepared, Context& context) {
+  prepared.origin = large_array<Index>(prepared.base().face_count());
   std::iota(prepared.origin.begin(), prepared.origin.end(), 0);
   for (const FilterStation& station : filters) {
     SoupSink sink;
@@ -63,6 +60,68 @@ PreparedMesh apply_filters(const Mesh& mesh, std::span<const FilterStation> filt
     prepared.origin = std::move(origin);
     prepared.filtered = std::move(next);
   }
+}
+
+/// Triangles of the base of which at least half of the pieces are wanted.
+std::vector<Index> base_triangles(const PreparedMesh& prepared, const std::vector<bool>& which) {
+  std::vector<std::int32_t> balance(prepared.base().face_count(), 0);
+  std::vector<bool> touched(balance.size(), false);
+  for (Index f = 0; f < prepared.view().face_count(); ++f) {
+    balance[prepared.origin[f]] += which[f] ? 1 : -1;
+    if (which[f]) touched[prepared.origin[f]] = true;
+  }
+  std::vector<Index> triangles;
+  for (Index t = 0; t < balance.size(); ++t)
+    if (touched[t] && balance[t] >= 0) triangles.push_back(t);
+  return triangles;
+}
+
+}  // namespace
+
+void PreparedMesh::add_input_vertices(Index vertex, std::vector<Index>& vertices) const {
+  const std::span<const Index> kept = view().input_vertices;
+  const Index at = kept.empty() ? vertex : kept[vertex];
+  if (at == no_vertex) return;
+  if (!coarse) return vertices.push_back(at);
+  const std::span<const Index> cluster = coarse->clusters[at];
+  vertices.insert(vertices.end(), cluster.begin(), cluster.end());
+}
+
+std::vector<Index> PreparedMesh::input_triangles(const std::vector<bool>& which) const {
+  std::vector<Index> triangles = base_triangles(*this, which);
+  if (!coarse) return triangles;
+  std::vector<Index> around(base().vertex_count(), 0);
+  for (const Index t : triangles)
+    for (const Index v : base().triangles[t]) ++around[v];
+  const auto inside = [&](Index cluster) { return 2 * around[cluster] >= base().faces_of(cluster).size(); };
+  const MeshView& fine = input->view();
+  triangles.clear();
+  for (Index cluster = 0; cluster < around.size(); ++cluster) {
+    if (around[cluster] == 0 || !inside(cluster)) continue;
+    for (const Index v : coarse->clusters[cluster])
+      for (const Index f : fine.faces_of(v)) {
+        const Triangle& t = fine.triangles[f];
+        const auto within = [&](Index corner) { return inside(coarse->clusters.of[corner]) ? 1 : 0; };
+        if (within(t[0]) + within(t[1]) + within(t[2]) >= 2) triangles.push_back(f);
+      }
+  }
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return triangles;
+}
+
+PreparedMesh apply_filters(const Mesh& mesh, std::span<const FilterStation> filters, Context& context) {
+  PreparedMesh prepared;
+  prepared.input = &mesh;
+  apply(filters, prepared, context);
+  return prepared;
+}
+
+PreparedMesh prepare_mesh(const Mesh& mesh, const Stations& stations, Context& context) {
+  PreparedMesh prepared;
+  prepared.input = &mesh;
+  if (stations.resolution.faces > 0) prepared.coarse = coarsen(mesh.view(), stations.resolution.faces, context);
+  apply(stations.filters, prepared, context);
   return prepared;
 }
 

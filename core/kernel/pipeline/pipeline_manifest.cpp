@@ -8,6 +8,7 @@
 #include "base/schemas.h"
 #include "base/text_file.h"
 #include "model/yaml_schema.h"
+#include "pipeline/resolution.h"
 #include "plugin/option_check.h"
 #include "probability/probability_options.h"
 
@@ -115,7 +116,7 @@ Setting parse_setting(std::string_view text, const std::string& owner) {
                   .option = std::string(path.substr(last + 1)),
                   .value = assignment->second};
   const std::vector<std::string> stations = {"filters", "worksets",  "shapes",     "relations",
-                                             "labeler", "marginals", "probability"};
+                                             "labeler", "marginals", "resolution", "probability"};
   if (std::find(stations.begin(), stations.end(), setting.station) == stations.end())
     throw UsageError(owner + ": there is no station '" + setting.station + "'; " +
                      name_remedy(setting.station, stations));
@@ -141,6 +142,7 @@ PipelineManifest read_pipeline(const std::filesystem::path& path, const PluginCa
   pipeline.file = file;
   pipeline.name = root["name"].Scalar();
   if (root["summary"]) pipeline.summary = root["summary"].Scalar();
+  pipeline.resolution = reader.options(root["resolution"], resolution_option_table(), "resolution");
   if (root["filters"])
     for (const YAML::Node& filter : root["filters"])
       pipeline.filters.push_back(reader.station(filter, PluginKind::filters));
@@ -178,6 +180,9 @@ void apply_override(PipelineManifest& pipeline, std::string_view text, const Plu
       throw UsageError(owner + ": the pipeline '" + pipeline.name +
                        "' has no station 'marginals'; add one, such as marginals: {plugin: posterior}");
     replace(pipeline.marginals->options, checked(PluginKind::labelers, pipeline.marginals->plugin));
+  } else if (setting.station == "resolution") {
+    replace(pipeline.resolution,
+            check_option(resolution_option_table(), setting.option, setting.value, owner + ": resolution"));
   } else if (setting.station == "probability") {
     replace(pipeline.probability,
             check_option(probability_option_table(), setting.option, setting.value, owner + ": probability"));

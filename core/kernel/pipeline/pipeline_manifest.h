@@ -23,7 +23,8 @@ struct StationPlugin {
 struct PipelineManifest {
   std::string name, summary;
   std::string file;
-  std::vector<StationPlugin> filters;  ///< in order
+  std::vector<OptionValue> resolution;  ///< the kernel's own: resolution_option_table()
+  std::vector<StationPlugin> filters;   ///< in order
   StationPlugin worksets;
   std::map<std::string, std::vector<OptionValue>> shapes;     ///< by plugin id; those not named take their defaults
   std::map<std::string, std::vector<OptionValue>> relations;  ///< likewise
@@ -43,7 +44,7 @@ std::vector<OptionValue> plugin_options(const PipelineManifest& pipeline, const 
                                         std::string_view id);
 
 /// Command line `--set`: "station.option=value", where station is filters.<id> (every filter of that id), worksets,
-/// shapes.<id>, relations.<id>, labeler, marginals or probability. \throw UsageError
+/// shapes.<id>, relations.<id>, labeler, marginals, resolution or probability. \throw UsageError
 void apply_override(PipelineManifest& pipeline, std::string_view setting, const PluginCatalog& catalog);
 
 /// Command line `--labeler`: another labeler, with its defaults; the pipeline's own keeps its options.

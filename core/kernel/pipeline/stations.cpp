@@ -84,6 +84,7 @@ FilterStation make_filter(PluginHost& host, std::string_view id, const std::vect
 Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const Model& model) {
   const PluginCatalog& catalog = host.catalog();
   Stations stations;
+  stations.resolution = resolution_of(Options(pipeline.resolution));
   for (const StationPlugin& filter : pipeline.filters) {
     stations.filters.push_back(make_filter(host, filter.plugin, filter.options));
     stations.uses.push_back(stations.filters.back().use);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "pipeline/resolution.h"
 #include "plugin/manifest.h"
 #include "plugin/option_check.h"
 #include "probability/likelihood.h"
@@ -68,6 +69,7 @@ struct LabelerStation {
 
 /// The plugins that serve a model's run, created with their options.
 struct Stations {
+  Resolution resolution{};
   std::vector<FilterStation> filters;
   WorkingSetStation working_sets;
   std::vector<FeatureStation> features;            ///< one per model feature; the same shape is the same object

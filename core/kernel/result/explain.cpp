@@ -84,24 +84,17 @@ class Explainer {
     return probability_of_shape(posed_, v, value, analysis_.features, run_);
   }
 
-  /// Triangles of the input of which at least half (of the filtered pieces) have two vertices in the working sets.
+  /// Triangles of the input whose faces have two vertices in the working sets.
   std::vector<Index> triangles_of(const ConstructedFeature& made) const {
     const MeshView& view = run_.mesh;
-    std::vector<bool> inside(view.vertex_count(), false);
+    std::vector<bool> inside(view.vertex_count(), false), which(view.face_count());
     for (Index s : made.sets)
       for (Index v : analysis_.sets[s]) inside[v] = true;
-    std::vector<std::int32_t> balance(analysis_.mesh.input->view().face_count(), 0);
-    std::vector<bool> touched(balance.size(), false);
     for (Index f = 0; f < view.face_count(); ++f) {
       const auto& [a, b, c] = view.triangles[f];
-      const bool in = inside[a] + inside[b] + inside[c] >= 2;
-      balance[analysis_.mesh.origin[f]] += in ? 1 : -1;
-      if (in) touched[analysis_.mesh.origin[f]] = true;
+      which[f] = inside[a] + inside[b] + inside[c] >= 2;
     }
-    std::vector<Index> triangles;
-    for (Index t = 0; t < balance.size(); ++t)
-      if (touched[t] && balance[t] >= 0) triangles.push_back(t);
-    return triangles;
+    return analysis_.mesh.input_triangles(which);
   }
 
   MissingReport why_missing(Index model_feature, Index v) const {
@@ -206,6 +199,10 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
   result.faces = analysis.mesh.input->input_faces();
   result.box = input.box;
   result.mean_edge = input.mean_edge;
+  if (analysis.mesh.coarse) {
+    const MeshView& coarse = analysis.mesh.base();
+    result.analysed = {coarse.vertex_count(), coarse.face_count(), coarse.mean_edge};
+  }
   result.model = model.name;
   result.log_evidence = posed.log_evidence;
   result.guarantee = outcome.guarantee;

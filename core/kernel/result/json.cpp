@@ -125,6 +125,9 @@ Json document(const Result& result) {
                   {"holes", result.repair.holes},
                   {"euler", result.repair.euler},
                   {"genus", result.repair.genus}};
+  if (const auto& coarse = result.analysed)
+    root["mesh"]["analysed"] = {
+        {"vertices", coarse->vertices}, {"faces", coarse->faces}, {"mean_edge", coarse->mean_edge}};
   for (const RepairCount& each : repair_counts(result.repair)) root["mesh"]["repair"][each.name] = each.count;
   root["model"] = result.model;
   root["status"] = result.status;

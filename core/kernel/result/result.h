@@ -62,11 +62,18 @@ struct AlternativeReport {
   std::vector<std::pair<std::string, int>> candidates;  ///< feature, rank of its candidate from 1; 0 = missing
 };
 
+/// The coarse mesh that was analysed in the place of a finer one.
+struct AnalysedMesh {
+  Index vertices = 0, faces = 0;
+  double mean_edge = 0;  ///< mesh unit
+};
+
 struct Result {
   std::string mesh_path;
   Index vertices = 0, faces = 0;
   Box box;
   double mean_edge = 0;
+  std::optional<AnalysedMesh> analysed;
   RepairReport repair;  ///< of the file, before all else
   std::string model;
   std::string status;      ///< labelled, partial, none

@@ -34,6 +34,8 @@ std::string to_text(const Result& result) {
     if (each.name == result.class_name) text += fmt::format(", class {} ({:.3f})", each.name, each.probability);
   text += fmt::format("\n  {} vertices, {} faces, box {:.4g} x {:.4g} x {:.4g}, mean edge {:.3g}\n", result.vertices,
                       result.faces, result.box.a(), result.box.b(), result.box.c(), result.mean_edge);
+  if (const auto& coarse = result.analysed)
+    text += fmt::format("  analysed on {} faces, mean edge {:.3g}\n", coarse->faces, coarse->mean_edge);
   if (result.repair.notable()) text += fmt::format("  repaired: {}\n", repair_in_words(result.repair));
   text += "\n";
   text += fmt::format("  {:<14}{:<9}{:<6}  {:<11}{:<44} {:>9} {:>6}\n", "feature", "", "prob.", "shape", "measured",

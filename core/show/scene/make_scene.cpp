@@ -160,7 +160,8 @@ Scene make_scene(const Analysis& analysis, const Model& model, const Result& res
   for (const FeatureReport& report : result.features) scene.features.push_back(report.name);
   add_input(input, labels_of(result, input.view().face_count()), limits.triangles, scene);
   const bool whole = limits.candidates > 0;
-  if (whole && analysis.mesh.filtered) scene.normalised = display_mesh(analysis.mesh.view(), {}, limits.triangles);
+  if (whole && (analysis.mesh.filtered || analysis.mesh.coarse))
+    scene.normalised = display_mesh(analysis.mesh.view(), {}, limits.triangles);
   SceneMaker maker(analysis, model, result, limits, scene);
   if (whole) {
     maker.working_sets();
