@@ -33,3 +33,18 @@ if(NOT TARGET Toposcope::md)
     IMPORTED_LOCATION ${TOPOSCOPE_MD_LIBRARY}
     INTERFACE_INCLUDE_DIRECTORIES ${TOPOSCOPE_MD_INCLUDE_DIR})
 endif()
+
+# Draco decompresses glTF, where it is installed.
+if(NOT TARGET Toposcope::draco)
+  find_library(TOPOSCOPE_DRACO_LIBRARY NAMES libdraco.so)
+  find_path(TOPOSCOPE_DRACO_INCLUDE_DIR draco/compression/decode.h)
+  if(TOPOSCOPE_DRACO_LIBRARY AND TOPOSCOPE_DRACO_INCLUDE_DIR)
+    add_library(Toposcope::draco SHARED IMPORTED GLOBAL)
+    set_target_properties(Toposcope::draco PROPERTIES
+      IMPORTED_LOCATION ${TOPOSCOPE_DRACO_LIBRARY}
+      INTERFACE_INCLUDE_DIRECTORIES ${TOPOSCOPE_DRACO_INCLUDE_DIR}
+      INTERFACE_COMPILE_DEFINITIONS TOPOSCOPE_DRACO)
+  else()
+    message(STATUS "Without Draco: glTF that it has compressed is refused (apt-get install libdraco-dev)")
+  endif()
+endif()

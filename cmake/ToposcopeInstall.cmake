@@ -25,10 +25,11 @@ install(TARGETS toposcope_api toposcope_geometry toposcope_labeling toposcope_wr
 install(EXPORT ToposcopeTargets NAMESPACE Toposcope:: DESTINATION ${package_dir} COMPONENT sdk)
 install(DIRECTORY ${source_dir}/core/include/toposcope DESTINATION include COMPONENT sdk)
 install(DIRECTORY ${source_dir}/schemas ${source_dir}/templates DESTINATION share/toposcope COMPONENT sdk)
-# The author's pages, in folders as in the tree, so that their links hold.
+# The author's pages and all that they link to, in folders as in the tree, so that the links hold (tests/sdk/install.cmake).
 set(doc_dir share/doc/libtoposcope-dev)
-install(DIRECTORY ${source_dir}/docs/guide ${source_dir}/docs/theory DESTINATION ${doc_dir}/docs COMPONENT sdk)
-install(DIRECTORY ${source_dir}/examples DESTINATION ${doc_dir} COMPONENT sdk)
+install(DIRECTORY ${source_dir}/docs ${source_dir}/examples ${source_dir}/schemas ${source_dir}/pipelines
+        ${source_dir}/models DESTINATION ${doc_dir} COMPONENT sdk)
+install(DIRECTORY ${source_dir}/plugins DESTINATION ${doc_dir} COMPONENT sdk FILES_MATCHING PATTERN *.md)
 install(FILES ${source_dir}/MIGRATION.md DESTINATION ${doc_dir} COMPONENT sdk)
 
 include(CMakePackageConfigHelpers)

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -21,6 +20,7 @@
 #include "examination.h"
 #include "interruption.h"
 #include "toposcope/system/programs.h"
+#include "toposcope/system/spawn.h"
 
 extern "C" char** environ;  // NOLINT(readability-redundant-declaration)
 
@@ -93,9 +93,7 @@ class Child {
     if (pipe2(ends, O_CLOEXEC) != 0) throw Error(std::string("no pipe: ") + std::strerror(errno), 1);
     report_ = ends[0];
     std::vector<std::string> environment = environment_with(folder.path());
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // to be ended with all that it has started
+    const SpawnAttributes attributes(POSIX_SPAWN_SETPGROUP);  // to be ended with all that it has started
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -103,9 +101,8 @@ class Child {
                                      0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     posix_spawn_file_actions_adddup2(&actions, ends[1], report_descriptor);
-    const int error = posix_spawn(&process_, command[0].c_str(), &actions, &attributes, pointers(command).data(),
+    const int error = posix_spawn(&process_, command[0].c_str(), &actions, attributes.get(), pointers(command).data(),
                                   pointers(environment).data());
-    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     close(ends[1]);
     if (error != 0) throw Error(command[0] + " cannot be started: " + std::strerror(error), 1);

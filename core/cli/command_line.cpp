@@ -2,6 +2,7 @@
 #include "command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <sstream>
 #include <string_view>
 
 #include "base/errors.h"
@@ -69,7 +70,12 @@ int run_command_line(CLI::App& app, int argc, char** argv, const int& code) try 
   app.parse(argc, argv);
   return code;
 } catch (const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) return app.exit(error);  // help or the version was asked for
+  if (error.get_exit_code() == 0) {  // help or the version was asked for
+    std::ostringstream text;
+    const int done = app.exit(error, text, text);
+    write_output(text.str());
+    return done;
+  }
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
   complain(explained(*command, error) + "\nRun " + full_name(*command) + " --help for more information.");

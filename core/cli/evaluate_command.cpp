@@ -119,7 +119,7 @@ int evaluate(const EvaluateOptions& options) {
     evaluation.pipeline = options.pipeline;
     session.status("");
     std::vector<Table> all = tables(evaluation);
-    if (!baseline.empty())
+    if (!options.baseline.empty())
       for (Table& table : changes(evaluation, baseline, options.baseline.string())) all.push_back(std::move(table));
     const std::string part = fmt::format("{}\n{}\n{}", title(evaluation), headline(evaluation), to_text(all));
     if (!options.json && !options.csv && !options.markdown) say("{}\n", part);

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <new>
+#include <stdexcept>
+#include <system_error>
 
 #include "base/errors.h"
 
@@ -16,6 +18,10 @@ Failure present_failure() try { throw; } catch (const Error& error) {
       2};
 } catch (const std::bad_alloc&) {
   return {"out of memory; give less input at once", 1};
+} catch (const std::length_error&) {
+  return {"out of memory: more is asked for than a list can hold; give less input at once", 1};
+} catch (const std::system_error& error) {
+  return {std::string("the system refuses: ") + error.what() + "; are there too many files, threads or processes?", 1};
 } catch (const std::exception& error) {
   return {std::string("internal error: ") + error.what(), 1};
 }

@@ -78,7 +78,8 @@ std::string in_words(Exactness exactness, double error, const char* unit) {
 std::string as_json(const LabelingProblem& problem, const LabelingOutcome& outcome, const std::string& labeler,
                     double time_ms) {
   const bool found = !outcome.labelings.empty() && outcome.labelings[0].cost < forbidden;
-  ordered_json root = {{"problem", problem.name},
+  ordered_json root = {{"schema", "toposcope.labeling/1"},
+                       {"problem", problem.name},
                        {"labeler", labeler},
                        {"labeling", found ? values_of(problem, outcome.labelings[0]) : ordered_json()},
                        {"cost", found ? ordered_json(outcome.labelings[0].cost) : ordered_json()},

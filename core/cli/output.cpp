@@ -24,7 +24,7 @@ void write_output(std::string_view text) {
 }
 
 void flush_output() {
-  if (std::fflush(stdout) != 0) fail();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail();
 }
 
 void complain(std::string_view message) {

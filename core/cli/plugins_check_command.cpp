@@ -127,7 +127,7 @@ int plugins_check(const CheckOptions& options) {
   const auto good = static_cast<std::size_t>(
       std::count_if(plugins.begin(), plugins.end(), [](const Checked& p) { return p.passes(); }));
   if (options.json) {
-    nlohmann::ordered_json root = {{"plugins", nlohmann::json::array()}};
+    nlohmann::ordered_json root = {{"schema", "toposcope.check/1"}, {"plugins", nlohmann::json::array()}};
     for (const Checked& plugin : plugins) root["plugins"].push_back(report_of(plugin));
     say("{}\n", root.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   } else {

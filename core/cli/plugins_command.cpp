@@ -62,7 +62,8 @@ const PluginManifest& find(const PluginCatalog& catalog, const std::string& id) 
 int plugins_list(const PluginsOptions& options) {
   const PluginCatalog catalog = open_catalog(options.plugin_dirs, false);
   if (options.json) {
-    nlohmann::ordered_json root = {{"plugins", nlohmann::json::array()}, {"problems", nlohmann::json::array()}};
+    nlohmann::ordered_json root = {
+        {"schema", "toposcope.plugins/1"}, {"plugins", nlohmann::json::array()}, {"problems", nlohmann::json::array()}};
     for (PluginKind kind : kinds)
       for (const PluginManifest* plugin : catalog.all(kind))
         root["plugins"].push_back({{"kind", to_string(kind)},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "base/errors.h"
@@ -9,6 +10,7 @@
 #include "commands.h"
 #include "options.h"
 #include "output.h"
+#include "output_folder.h"
 #include "picture/stages.h"
 #include "stored_results.h"
 
@@ -46,29 +48,44 @@ struct Wanted {
   std::string feature, name;
 };
 
-/// What of a scene there is to show of the stages asked for.
-std::vector<Wanted> pictures(const Scene& scene, const std::vector<std::string>& stages) {
+/// What there is to show of a stage.
+std::vector<Wanted> pictures(const Scene& scene, Stage stage) {
+  if (stage == Stage::marks && scene.marks.empty()) return {};
+  if (stage == Stage::worksets && scene.all_sets.empty()) return {};
+  if (stage != Stage::candidates) return {{stage, "", std::string(to_string(stage))}};
+  std::vector<Wanted> wanted;
+  for (const std::string& feature : scene.features)
+    if (std::any_of(scene.candidates.begin(), scene.candidates.end(),
+                    [&](const ShownCandidate& each) { return each.feature == feature; }))
+      wanted.push_back({stage, feature, "candidates-" + file_name(feature)});
+  return wanted;
+}
+
+/// What of a scene there is to show of the stages asked for; of those asked for by name, which have nothing.
+std::vector<Wanted> pictures(const Scene& scene, const std::vector<std::string>& stages, std::string& absent) {
   std::vector<Wanted> wanted;
   const auto add = [&](Stage stage) {
-    if (stage == Stage::marks && scene.marks.empty()) return;
-    if (stage == Stage::worksets && scene.all_sets.empty()) return;
-    if (stage != Stage::candidates) {
-      wanted.push_back({stage, "", std::string(to_string(stage))});
-      return;
-    }
-    for (const std::string& feature : scene.features)
-      for (const ShownCandidate& each : scene.candidates)
-        if (each.feature == feature) {
-          wanted.push_back({stage, feature, "candidates-" + file_name(feature)});
-          break;
-        }
+    const std::vector<Wanted> more = pictures(scene, stage);
+    wanted.insert(wanted.end(), more.begin(), more.end());
+    return !more.empty();
   };
   for (const std::string& text : stages)
     if (text == "all")
       for (const Stage stage : all_stages) add(stage);
-    else
-      add(stage_from(text));
+    else if (!add(stage_from(text)))
+      absent += (absent.empty() ? "" : ", ") + text;
   return wanted;
+}
+
+/// Where a picture of one result goes.
+fs::path target_of(const fs::path& out, const fs::path& folder, const std::string& name, bool alone) {
+  if (out.empty()) return folder / (name + ".png");
+  std::error_code ignored;
+  if (out.filename().empty() || fs::is_directory(out, ignored)) {
+    make_folder(out, "-o");
+    return out / (name + ".png");
+  }
+  return alone ? out : fs::path(out).replace_filename(out.stem().string() + "-" + name + ".png");
 }
 
 int render(const RenderOptions& options) {
@@ -85,20 +102,19 @@ int render(const RenderOptions& options) {
   RunContext context({.threads = options.threads});
   return for_each_result(options.results, options.mesh, [&](const fs::path& folder) {
     const Scene scene = stored_scene(folder, options.mesh);
-    const std::vector<Wanted> wanted = pictures(scene, options.stages);
-    if (wanted.empty())
-      throw UsageError(folder.string() + ": has nothing to show of this stage; " +
-                       "working sets and candidates are in scene.json of toposcope run --out, marks in a truth file "
-                       "beside the mesh");
+    std::string absent;
+    const std::vector<Wanted> wanted = pictures(scene, options.stages, absent);
     const Stand stand = options.up == "auto" ? stand_of(scene) : stand_from(options.up);
     const View view = options.view == "auto" ? best_view(scene, stand) : view_from(options.view);
     for (const Wanted& each : wanted) {
-      fs::path file = options.out.empty() ? folder / (each.name + ".png") : options.out;
-      if (!options.out.empty() && wanted.size() > 1)
-        file.replace_filename(file.stem().string() + "-" + each.name + ".png");
+      const fs::path file = target_of(options.out, folder, each.name, wanted.size() == 1);
       write_file(file, to_png(picture_of(scene, each.stage, each.feature, view, stand, style, context)));
       if (!options.quiet) say("{}\n", file.string());
     }
+    if (!absent.empty())
+      throw UsageError(folder.string() + ": has nothing to show of " + absent +
+                       "; working sets and candidates are in scene.json of toposcope run --out, marks in a truth file "
+                       "beside the mesh");
   });
 }
 
@@ -111,8 +127,10 @@ void add_render(CLI::App& app, int& code) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
-  command.add_option("-o,--out", options->out, "the picture; of several pictures the beginning of their names")
-      ->type_name("FILE.png");
+  command
+      .add_option("-o,--out", options->out,
+                  "the picture; of several pictures the beginning of their names, or a folder")
+      ->type_name("FILE.png|DIR");
   command.add_option("--size", options->size, "pixels")->type_name("WxH")->capture_default_str();
   command
       .add_option("--view", options->view,

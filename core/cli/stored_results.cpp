@@ -19,10 +19,15 @@ fs::path result_folder(const fs::path& given) {
 }
 
 Scene stored_scene(const fs::path& folder, const fs::path& mesh) {
-  const fs::path file = folder / "scene.json";
+  const fs::path file = folder / "scene.json", result_file = folder / "result.json";
   std::error_code ignored;
-  if (fs::is_regular_file(file, ignored)) return read_scene(read_text_file(file, "scene"), file.string());
-  const LabelledMesh labelled = read_labelled_mesh(folder / "result.json", mesh);
+  if (fs::exists(fs::symlink_status(file, ignored))) {
+    Scene scene = read_scene(read_text_file(file, "scene"), file.string());
+    require_of_result(scene, file, read_result(result_file), result_file);
+    if (!mesh.empty()) read_labelled_mesh(result_file, mesh);  // the scene has it, but one that is named must be it
+    return scene;
+  }
+  const LabelledMesh labelled = read_labelled_mesh(result_file, mesh);
   const fs::path truth_file = truth_beside(mesh.empty() ? labelled.result.mesh : mesh);
   std::optional<Truth> truth;
   if (!truth_file.empty()) truth = read_truth(truth_file);

@@ -10,6 +10,8 @@ foreach(file bin/toposcope include/toposcope/plugin.h share/toposcope/models/cup
     message(FATAL_ERROR "${file} is not installed")
   endif()
 endforeach()
+# The author's pages lead nowhere that is not installed.
+check(python3 ${SOURCE}/tests/docs/links.py ${prefix}/share/doc/libtoposcope-dev)
 # The program works from there, with its own models, pipelines and plugins.
 check(${program} sample cup --faces 4000 -o ${folder}/cup.ply)
 check(${program} run ${folder}/cup.ply --model cup --json)

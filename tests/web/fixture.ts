@@ -117,8 +117,8 @@ export function scene(): SceneDocument {
     unit: '',
     result: {
       schema: 'toposcope.result/1',
-      mesh: { path: 'meshes/beaker.ply', vertices: positions.length / 3, faces: labels.length, box: { a: 76, b: 76, c: 73 }, mean_edge: 5, components: 1, closed_components: 0, holes: 2, euler: 0, genus: 0, repair: { merged_vertices: 3, unreferenced_vertices: 0, non_finite_vertices: 0, non_finite_faces: 0, degenerate_faces: 0, flat_faces: 0, duplicate_faces: 0, split_edges: 0, isolated_faces: 0, split_vertices: 0, turned_faces: 0, cut_edges: 0 } },
-      model: 'cup', status: 'partial', class: null, class_probabilities: { cup: 1 }, log_evidence: 41.5, optimal: true,
+      mesh: { path: 'meshes/beaker.ply', sha256: '0'.repeat(64), vertices: positions.length / 3, faces: labels.length, box: { a: 76, b: 76, c: 73 }, mean_edge: 5, components: 1, closed_components: 0, holes: 2, euler: 0, genus: 0, repair: { merged_vertices: 3, unreferenced_vertices: 0, non_finite_vertices: 0, non_finite_faces: 0, degenerate_faces: 0, flat_faces: 0, duplicate_faces: 0, split_edges: 0, isolated_faces: 0, split_vertices: 0, turned_faces: 0, cut_edges: 0 } },
+      model: 'cup', model_sha256: '0'.repeat(64), status: 'partial', class: null, class_probabilities: { cup: 1 }, log_evidence: 41.5, optimal: true,
       guarantee: 'least cost: proven', probabilities: 'posterior: exact',
       features: {
         rim: { present: true, probability: 0.9997, evidence: 30, shape: 'circle', parameters: rim, measures: { radius: 36, coverage: 1 }, fit_error: 0.1, fit, uncertainty: { radius: 0.05, centroid: 0.04, direction_deg: 0.2 }, working_sets: [0], faces: facesOf(1) },

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "io/gltf_compression.h"
 #include "io/gltf_uri.h"
 
 namespace toposcope {
@@ -64,10 +65,6 @@ void decode(std::size_t type, const char* data, std::size_t count, std::size_t s
   }
 }
 
-[[noreturn]] void refuse_compression(const GltfValue& value, const std::string& extension) {
-  value.fail("is compressed with " + extension + ", which cannot be read; export the mesh without compression");
-}
-
 }  // namespace
 
 GltfBuffers::GltfBuffers(const FileText& file, const GltfDocument& document)
@@ -104,16 +101,36 @@ std::string_view GltfBuffers::buffer(std::size_t index) {
   return entry->second = bytes.substr(0, length);
 }
 
+std::string_view GltfBuffers::range(const GltfValue& owner) {
+  const std::string_view bytes = buffer(owner["buffer"].whole());
+  const std::size_t begin = owner.whole("byteOffset", 0), length = owner["byteLength"].whole();
+  if (begin > bytes.size() || length > bytes.size() - begin)
+    owner.fail("covers bytes " + std::to_string(begin) + " to " + std::to_string(begin + length) + " of a buffer of " +
+               std::to_string(bytes.size()));
+  return bytes.substr(begin, length);
+}
+
+std::string_view GltfBuffers::view_bytes(std::size_t index) {
+  const GltfValue view = root_["bufferViews"][index];
+  for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    if (!view.has("extensions") || !view["extensions"].has(name)) continue;
+    const auto [entry, is_new] = decompressed_.try_emplace(index);
+    if (is_new) {
+      const GltfValue extension = view["extensions"][name];
+      entry->second = decode_meshopt(extension, range(extension));
+      hold(entry->second.size());
+    }
+    return entry->second;
+  }
+  return range(view);
+}
+
 GltfBuffers::Elements GltfBuffers::elements(const GltfValue& owner, std::size_t type, std::size_t count,
                                             std::size_t components) {
-  const GltfValue view = root_["bufferViews"][owner["bufferView"].whole()];
-  for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-    if (view.has("extensions") && view["extensions"].has(extension)) refuse_compression(view, extension);
-  const std::string_view bytes = buffer(view["buffer"].whole());
-  const std::size_t begin = view.whole("byteOffset", 0), length = view["byteLength"].whole();
-  if (begin > bytes.size() || length > bytes.size() - begin)
-    view.fail("covers bytes " + std::to_string(begin) + " to " + std::to_string(begin + length) + " of a buffer of " +
-              std::to_string(bytes.size()));
+  const std::size_t index = owner["bufferView"].whole();
+  const GltfValue view = root_["bufferViews"][index];
+  const std::string_view bytes = view_bytes(index);
+  const std::size_t length = bytes.size();
   const std::size_t size = components * size_of(type);
   const std::size_t stride = view.whole("byteStride", size), offset = owner.whole("byteOffset", 0);
   constexpr std::size_t largest_stride = 252;
@@ -123,7 +140,7 @@ GltfBuffers::Elements GltfBuffers::elements(const GltfValue& owner, std::size_t 
   if (offset > length || (count > 0 && (size > length - offset || (count - 1) > (length - offset - size) / stride)))
     owner.fail("has " + std::to_string(count) + " elements, more than its buffer view of " + std::to_string(length) +
                " bytes holds; it is damaged or cut short");
-  return {bytes.data() + begin + offset, count, stride, type};
+  return {bytes.data() + offset, count, stride, type};
 }
 
 std::vector<double> GltfBuffers::numbers(std::size_t index, std::size_t components) {

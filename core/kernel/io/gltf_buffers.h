@@ -21,8 +21,13 @@ class GltfBuffers {
   std::size_t bytes_held() const { return bytes_held_; }
 
   /// All numbers of an accessor, `components` to an element; normalised integers as fractions, sparse ones filled in.
-  /// \throw MeshError  damaged, out of range, compressed, not of this shape
+  /// \throw MeshError  damaged, out of range, not of this shape
   std::vector<double> numbers(std::size_t accessor, std::size_t components);
+
+  /// The bytes of a buffer view, decompressed where it is compressed. \throw MeshError  damaged, out of range
+  std::string_view view_bytes(std::size_t view);
+  /// What was decompressed elsewhere counts among the bytes held.
+  void hold(std::size_t bytes) { bytes_held_ += bytes; }
 
  private:
   struct Elements {
@@ -31,6 +36,8 @@ class GltfBuffers {
   };
 
   std::string_view buffer(std::size_t index);
+  /// The bytes that `owner` names by buffer, byteOffset and byteLength.
+  std::string_view range(const GltfValue& owner);
   std::string_view from_uri(const GltfValue& buffer, const std::string& uri);
   /// `count` elements of a buffer view. \param owner  has bufferView and byteOffset
   Elements elements(const GltfValue& owner, std::size_t type, std::size_t count, std::size_t components);
@@ -42,7 +49,8 @@ class GltfBuffers {
   std::size_t bytes_held_;
   std::map<std::size_t, std::string_view> buffers_;
   std::map<std::filesystem::path, FileBytes> files_;
-  std::map<std::size_t, std::string> decoded_;
+  std::map<std::size_t, std::string> decoded_;       ///< buffers
+  std::map<std::size_t, std::string> decompressed_;  ///< buffer views
 };
 
 }  // namespace toposcope

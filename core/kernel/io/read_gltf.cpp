@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
 
 #include "io/gltf_buffers.h"
+#include "io/gltf_compression.h"
 #include "io/gltf_document.h"
 #include "io/readers.h"
 
@@ -73,7 +77,9 @@ class SceneReader {
     const GltfValue required = root_["extensionsRequired"];
     for (std::size_t i = 0; i < required.size(); ++i) {
       const std::string name = required[i].text();
-      if (name.ends_with("_compression"))
+      constexpr std::string_view readable[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
+                                               "KHR_meshopt_compression"};
+      if (name.ends_with("_compression") && std::ranges::count(readable, name) == 0)
         required.fail("names " + toposcope::quoted(name) +
                       ", which cannot be read; export the mesh without compression");
       if (name == "EXT_mesh_gpu_instancing") refuse_instancing(required);
@@ -131,23 +137,45 @@ class SceneReader {
     const std::string draco = "KHR_draco_mesh_compression";
     if (primitive.has("extensions") && primitive["extensions"].has(draco) &&
         !root_["accessors"][positions].has("bufferView"))
-      primitive.fail("is compressed with " + draco + ", which cannot be read; export the mesh without compression");
+      return add_draco(primitive, mode, primitive["extensions"][draco], transform);
     const auto [entry, is_new] = first_vertex.try_emplace(positions, builder_.position_count());
-    if (is_new) add_positions(primitive, positions, transform);
-    const std::size_t first = entry->second, count = root_["accessors"][positions]["count"].whole();
+    if (is_new) add_positions(primitive, buffers_.numbers(positions, 3), transform);
+    const std::size_t count = root_["accessors"][positions]["count"].whole();
     std::vector<double> listed;
     if (primitive.has("indices")) listed = buffers_.numbers(primitive["indices"].whole(), 1);
     const std::size_t corners = primitive.has("indices") ? listed.size() : count;
-    spend(corners, primitive);
+    add_faces(primitive, mode, transform, {entry->second, count, corners, std::move(listed)});
+  }
 
+  void add_draco(const GltfValue& primitive, std::size_t mode, const GltfValue& extension, const Transform& transform) {
+    DracoPrimitive decoded = decode_draco(extension, buffers_.view_bytes(extension["bufferView"].whole()));
+    buffers_.hold((decoded.positions.size() + decoded.indices.size()) * sizeof(float));
+    const std::size_t first = builder_.position_count();
+    add_positions(primitive, decoded.positions, transform);
+    const std::size_t corners = decoded.indices.size();
+    // Strips are stored as the triangles that they stand for.
+    add_faces(primitive, mode == strip ? std::size_t{triangles} : mode, transform,
+              {first, decoded.positions.size() / 3, corners, std::move(decoded.indices)});
+  }
+
+  /// The corners of a primitive's faces.
+  struct Corners {
+    std::size_t first, vertices;  ///< of its positions
+    std::size_t count;
+    std::vector<double> listed;  ///< empty: all vertices in turn
+  };
+
+  void add_faces(const GltfValue& primitive, std::size_t mode, const Transform& transform, const Corners& corners) {
+    const auto& [first, count, all, listed] = corners;
+    spend(all, primitive);
     const bool mirrored = transform.leftCols<3>().determinant() < 0;  // outside stays outside
     for (double index : listed)
       if (!(index >= 0 && index < static_cast<double>(count)) ||
           index != static_cast<double>(static_cast<std::size_t>(index)))
-        primitive.fail("refers to vertex " + std::to_string(index) + " but has " + std::to_string(count) +
-                       "; the indices are damaged");
-    const auto vertex = [&](std::size_t corner) {
-      return static_cast<std::int64_t>(first + (listed.empty() ? corner : static_cast<std::size_t>(listed[corner])));
+        primitive.fail(fmt::format("refers to vertex {} but has {}; the indices are damaged", index, count));
+    const auto vertex = [&at = corners](std::size_t corner) {
+      return static_cast<std::int64_t>(at.first +
+                                       (at.listed.empty() ? corner : static_cast<std::size_t>(at.listed[corner])));
     };
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
       std::array<std::int64_t, 3> face = {vertex(a), vertex(b), vertex(c)};
@@ -155,9 +183,9 @@ class SceneReader {
       builder_.add_face(face, {});
     };
     if (mode == triangles)
-      for (std::size_t i = 0; i + 2 < corners; i += 3) add(i, i + 1, i + 2);
+      for (std::size_t i = 0; i + 2 < all; i += 3) add(i, i + 1, i + 2);
     else
-      for (std::size_t i = 2; i < corners; ++i) {
+      for (std::size_t i = 2; i < all; ++i) {
         if (mode == fan)
           add(0, i - 1, i);
         else
@@ -165,8 +193,7 @@ class SceneReader {
       }
   }
 
-  void add_positions(const GltfValue& primitive, std::size_t accessor, const Transform& transform) {
-    const std::vector<double> given = buffers_.numbers(accessor, 3);
+  void add_positions(const GltfValue& primitive, const std::vector<double>& given, const Transform& transform) {
     spend(given.size() / 3, primitive);
     for (std::size_t i = 0; i < given.size(); i += 3)
       builder_.add_position(transform.leftCols<3>() * Vec3(given[i], given[i + 1], given[i + 2]) + transform.col(3),

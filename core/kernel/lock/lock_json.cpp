@@ -39,7 +39,7 @@ std::map<std::string, std::string> texts_of(const Json& json) {
 
 RunLock lock_of(const Json& json) {
   RunLock lock;
-  lock.program_version = json.at("program").at("version");
+  lock.program = {json.at("program").at("version"), file_of(json.at("program").at("file"))};
   lock.seed = json.at("seed");
   lock.pipeline = json.at("pipeline");
   if (json.contains("resolution")) lock.resolution = texts_of(json["resolution"]);  // older ones do not
@@ -67,7 +67,7 @@ std::string to_json(const RunLock& lock) {
   for (const LockedMesh& mesh : lock.meshes)
     meshes.push_back({{"file", to_json(mesh.file)}, {"parts", to_json(mesh.parts)}});
   const Json json = {{"schema", schema_id},
-                     {"program", {{"version", lock.program_version}}},
+                     {"program", {{"version", lock.program.version}, {"file", to_json(lock.program.file)}}},
                      {"seed", lock.seed},
                      {"pipeline", lock.pipeline},
                      {"resolution", Json(lock.resolution)},

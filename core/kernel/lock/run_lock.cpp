@@ -6,10 +6,10 @@
 
 #include "base/errors.h"
 #include "base/json_text.h"
+#include "base/sha256.h"
 #include "base/text_file.h"
 #include "io/extension.h"
 #include "io/gltf_uri.h"
-#include "lock/sha256.h"
 #include "pipeline/resolution.h"
 #include "pipeline/stations.h"
 #include "plugin/option_check.h"
@@ -20,10 +20,6 @@ namespace toposcope {
 namespace {
 
 namespace fs = std::filesystem;
-
-LockedFile locked_file(const fs::path& path) {
-  return {path.string(), sha256_of(path)};
-}
 
 LockedPlugin locked_plugin(const PluginManifest& manifest, const std::vector<OptionValue>& values) {
   const PluginUse use = use_of(manifest, values);
@@ -128,10 +124,14 @@ std::map<std::string, std::string> texts_of(std::span<const OptionRow> table, co
 
 }  // namespace
 
-RunLock lock_run(const std::string& program_version, std::uint64_t seed, const PipelineManifest& pipeline,
-                 const Model& model, const std::vector<fs::path>& meshes, const PluginCatalog& catalog) {
+LockedFile locked_file(const fs::path& path) {
+  return {path.string(), sha256_of(path)};
+}
+
+RunLock lock_run(const LockedProgram& program, std::uint64_t seed, const PipelineManifest& pipeline, const Model& model,
+                 const std::vector<fs::path>& meshes, const PluginCatalog& catalog) {
   RunLock lock;
-  lock.program_version = program_version;
+  lock.program = program;
   lock.seed = seed;
   lock.pipeline = pipeline.name;
   lock.resolution = texts_of(resolution_option_table(), pipeline.resolution);
@@ -144,7 +144,8 @@ RunLock lock_run(const std::string& program_version, std::uint64_t seed, const P
 
 void require_same(const RunLock& locked, const RunLock& now, const fs::path& lock_file) {
   Differences differences;
-  differences.compare(2, "program version", locked.program_version, now.program_version);
+  differences.compare(2, "program version", locked.program.version, now.program.version);
+  differences.compare(2, "program", locked.program.file, now.program.file);
   differences.compare(2, "seed", std::to_string(locked.seed), std::to_string(now.seed));
   differences.compare(2, "pipeline", locked.pipeline, now.pipeline);
   differences.compare(2, "resolution", locked.resolution, now.resolution);

@@ -18,6 +18,9 @@ struct LockedFile {
   std::string path, sha256;
 };
 
+/// \throw UsageError  it cannot be read
+LockedFile locked_file(const std::filesystem::path& path);
+
 struct LockedPlugin {
   std::string kind, id, version;
   LockedFile library;
@@ -30,10 +33,16 @@ struct LockedMesh {
   std::vector<LockedFile> parts;  ///< further files that a glTF file names
 };
 
+/// The program that runs.
+struct LockedProgram {
+  std::string version;
+  LockedFile file;
+};
+
 /// Everything that decides what a run finds (schemas/lock.schema.json): written by `run --lock`, compared by
 /// `run --locked`. The number of threads does not decide.
 struct RunLock {
-  std::string program_version;
+  LockedProgram program;
   std::uint64_t seed = 1;
   std::string pipeline;  ///< its name; what it says is in the plugins' options
   std::map<std::string, std::string> resolution, probability;
@@ -44,8 +53,8 @@ struct RunLock {
 
 /// Of a run that is about to begin. Loads no plugin: a library that was changed must not run before it is compared.
 /// \throw UsageError, PluginError, MeshError
-RunLock lock_run(const std::string& program_version, std::uint64_t seed, const PipelineManifest& pipeline,
-                 const Model& model, const std::vector<std::filesystem::path>& meshes, const PluginCatalog& catalog);
+RunLock lock_run(const LockedProgram& program, std::uint64_t seed, const PipelineManifest& pipeline, const Model& model,
+                 const std::vector<std::filesystem::path>& meshes, const PluginCatalog& catalog);
 
 std::string to_json(const RunLock& lock);
 /// \throw UsageError  it is no lock file

@@ -109,9 +109,7 @@ void count_topology(const TriangleSoup& soup, const Gluing& gluing, const Compon
   report.genus = (2 * static_cast<long>(report.components) - report.holes - report.euler) / 2;
 }
 
-}  // namespace
-
-RepairReport repair(TriangleSoup& soup, const std::string& name) {
+RepairReport repair_once(TriangleSoup& soup, const std::string& name) {
   RepairReport report;
   auto [first, welded, gluing] = clean(soup, name, report);
   report.split_edges = gluing.split_edges;
@@ -142,6 +140,40 @@ RepairReport repair(TriangleSoup& soup, const std::string& name) {
     components = orient(soup.positions, soup.triangles, same, gluing);
   }
   count_topology(soup, gluing, components, report);
+  return report;
+}
+
+/// What is taken apart or flipped may leave what the next pass sees otherwise: an edge that has a partner now.
+bool settled(const RepairReport& report) {
+  return report.near_vertices + report.non_finite_faces + report.degenerate_faces + report.duplicate_faces +
+             report.split_edges + report.isolated_faces + report.split_vertices + report.cut_edges ==
+         0;
+}
+
+/// Two passes as one. What the mesh is like, the later one says.
+RepairReport sum_of(const RepairReport& first, RepairReport later) {
+  for (const auto count : change_counts) later.*count += first.*count;
+  later.near_distance = std::max(first.near_distance, later.near_distance);
+  return later;
+}
+
+}  // namespace
+
+RepairReport repair(TriangleSoup& soup, const std::string& name) {
+  constexpr int most_passes = 10;  // random soups need six
+  RepairReport report;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const std::vector<Vec3> positions = soup.positions;
+    const std::vector<Triangle> triangles = soup.triangles;
+    RepairReport more = repair_once(soup, name);
+    const bool done = settled(more);
+    const bool same = soup.positions == positions && soup.triangles == triangles;
+    // What was joined and taken apart again, as it was, is no change.
+    if (same)
+      for (const auto count : change_counts) more.*count = 0;
+    report = sum_of(report, more);
+    if (done || same) break;
+  }
   return report;
 }
 

@@ -31,11 +31,7 @@ struct RepairReport {
   long genus = 0;  ///< handles, summed over the components, as if every hole were closed by a disk
 
   /// Whether anything was done to the mesh.
-  bool changed() const {
-    return merged_vertices + unreferenced_vertices + non_finite_vertices + non_finite_faces + degenerate_faces +
-               duplicate_faces + split_edges + isolated_faces + split_vertices + turned_faces + cut_edges >
-           0;
-  }
+  bool changed() const;
   /// Whether something was done that a user should hear of: more than merging, dropping what is empty, or turning
   /// faces.
   bool notable() const {
@@ -43,5 +39,18 @@ struct RepairReport {
            0;
   }
 };
+
+/// The counts of what was done to a mesh, not of what it is like.
+inline constexpr Index RepairReport::*change_counts[] = {
+    &RepairReport::merged_vertices,  &RepairReport::near_vertices,       &RepairReport::unreferenced_vertices,
+    &RepairReport::non_finite_faces, &RepairReport::non_finite_vertices, &RepairReport::degenerate_faces,
+    &RepairReport::duplicate_faces,  &RepairReport::split_edges,         &RepairReport::isolated_faces,
+    &RepairReport::split_vertices,   &RepairReport::turned_faces,        &RepairReport::cut_edges};
+
+inline bool RepairReport::changed() const {
+  for (const auto count : change_counts)
+    if (this->*count > 0) return true;
+  return false;
+}
 
 }  // namespace toposcope

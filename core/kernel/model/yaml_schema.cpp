@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/yaml_schema.h"
 
+#include <algorithm>
 #include <regex>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -50,7 +51,7 @@ const json& schema_at(const json& schema, const JsonPath& path) {
     else if (const auto others = part->find("additionalProperties"); others != part->end() && others->is_object())
       next = &*others;
     else if (const auto items = part->find("items"); items != part->end())
-      next = &*items;
+      next = items->is_array() ? &items->at(std::stoul(step)) : &*items;
     if (!next) return nothing;
     part = &resolve(schema, *next);
   }
@@ -138,6 +139,27 @@ void report(const valijson::ValidationResults::Error& error, const json& schema,
   }
 }
 
+/// The alternative that an entry means, by its keys: what is wrong is then told of that one.
+const json& meant(const json& schema, const json& alternatives, const json& entry) {
+  const auto known = [&](const json& alternative) {
+    const json& keys = resolve(schema, alternative).value("properties", json::object());
+    return std::ranges::count_if(keys_of(entry), [&](const std::string& key) { return keys.contains(key); });
+  };
+  return *std::ranges::max_element(alternatives, {}, known);
+}
+
+/// Of a list whose entries are one of several: each entry gets the schema that it means.
+json with_meant_entries(json schema, const json& document) {
+  for (const auto& [name, part] : schema["properties"].items()) {
+    const json* list = value_at(document, {name});
+    if (!list || !list->is_array() || !part.contains("items") || !part["items"].contains("anyOf")) continue;
+    json entries = json::array();
+    for (const json& entry : *list) entries.push_back(meant(schema, part["items"]["anyOf"], entry));
+    if (!entries.empty()) part["items"] = std::move(entries);
+  }
+  return schema;
+}
+
 /// The names that a schema's `propertyNames` refuses: valijson passes over them.
 void check_key_names(const json& schema, const JsonPath& path, const LocatedJson& document, ErrorList& errors) {
   const json& part = schema_at(schema, path);
@@ -178,7 +200,7 @@ void check_schema(const YAML::Node& root, std::string_view schema, const std::st
   const LocatedJson document = yaml_to_json(root, file, errors);
   if (!errors.empty()) return;
 
-  const json schema_json = json::parse(schema);
+  const json schema_json = with_meant_entries(json::parse(schema), document.value);
   valijson::Schema rules;
   valijson::SchemaParser().populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_json), rules);
   valijson::ValidationResults results;

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "base/errors.h"
 #include "plugin/guard.h"
 #include "toposcope/geometry/point_sets.h"
 
@@ -118,9 +119,22 @@ class GroupFitter {
   std::vector<Box> set_boxes_;
 };
 
+/// Measures, parameters, covariance and outline of a fit, about; and what is kept of its group.
+constexpr std::uint64_t bytes_of_a_fit = 1024 + sizeof(FittedShape) + sizeof(Box);
+
+void require_memory(const FitJob& job, std::size_t count, const ModelRun& run) {
+  if (count * bytes_of_a_fit <= run.context.memory_budget()) return;
+  const ModelFeature& feature = job.feature(run.model);
+  throw UsageError(feature.where.str() + ": the fits of feature '" + feature.name + "' to " + std::to_string(count) +
+                   " groups of working sets would need about " + std::to_string(count * bytes_of_a_fit) +
+                   " bytes, and this run may take " + std::to_string(run.context.memory_budget()) +
+                   "; name fewer working-set types, or let the classifier give fewer sets");
+}
+
 }  // namespace
 
 GroupFits fit_groups(const FitJob& job, WorkingSetGroups groups, const ModelRun& run, const MeasuredWorkingSets& sets) {
+  require_memory(job, groups.size(), run);
   GroupFits fits{std::move(groups)};
   const std::size_t count = fits.groups.size();
   fits.shapes.resize(count);

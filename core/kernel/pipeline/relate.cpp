@@ -46,6 +46,14 @@ bool same_candidates(const LabelingProblem& problem, const std::vector<Index>& s
                     [&](Index v, Index w) { return problem.variables[v].candidates == other.variables[w].candidates; });
 }
 
+/// Bytes of tables that are there already.
+std::uint64_t table_bytes(const LabelingProblem& problem) {
+  std::uint64_t bytes = 0;
+  for (const LabelingConstraint& constraint : problem.constraints)
+    bytes += constraint.costs.size() * (sizeof(double) + sizeof(float));
+  return bytes;
+}
+
 /// Adds the bytes of a relationship's tables to those that are taken.
 void take_memory(const Relationship& relationship, const LabelingProblem& problem, const Context& context,
                  std::uint64_t& taken) {
@@ -70,7 +78,7 @@ LabelingProblem relate(const ModelRun& run, const MeasuredWorkingSets& sets, con
   problem.conflict_bits = std::move(conflicts_of(features.all, sets.overlap).bits);
 
   std::vector<BoundRelation> relations;
-  std::uint64_t taken = 0;  // bytes in tables
+  std::uint64_t taken = known ? table_bytes(*known) : 0;  // bytes in tables, of both while both are there
   for (Index r = 0; r < model.relationships.size(); ++r) {
     const std::vector<Index>& scope = model.relationships[r].features;
     relations.emplace_back(run, r);

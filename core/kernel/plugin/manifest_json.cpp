@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -122,8 +124,18 @@ std::vector<OptionRow> option_rows(const std::vector<Fields>& entries) {
   return rows;
 }
 
+/// Of another ABI the other fields are others, and what is wrong with them is no matter.
+void refuse_other_abi(const Fields& root) {
+  const auto major = root.object("abi").integer<std::uint32_t>("major");
+  const auto minor = root.object("abi").integer<std::uint32_t>("minor");
+  if (major != abi_major)
+    throw UsageError(fmt::format("it was built for plugin ABI {}.{}, this program has ABI {}.{}", major, minor,
+                                 abi_major, abi_minor));
+}
+
 PluginManifest parse(const Json& json) {
   const Fields root(json, "");
+  refuse_other_abi(root);
   root.allow_only({"schema", "id", "kind", "version", "abi", "fingerprint", "summary", "citation", "unit", "arity",
                    "dimension", "options", "arguments", "provides", "programs"});
   if (root.text("schema") != schema_id)

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/sha256.h"
+#include "mesh/content_hash.h"
 #include "pipeline/bound_relation.h"
 #include "pipeline/most_probable_shapes.h"
 #include "result/result.h"
@@ -195,6 +197,7 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
 
   Result result;
   result.mesh_path = mesh_path;
+  result.mesh_hash = content_hash(*analysis.mesh.input);
   result.vertices = input.vertex_count();
   result.faces = analysis.mesh.input->input_faces();
   result.box = input.box;
@@ -204,6 +207,7 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
     result.analysed = {coarse.vertex_count(), coarse.face_count(), coarse.mean_edge};
   }
   result.model = model.name;
+  result.model_hash = sha256_of_text(model.document);
   result.log_evidence = posed.log_evidence;
   result.guarantee = outcome.guarantee;
   result.probabilities = posed.probabilities;

@@ -116,6 +116,7 @@ Json document(const Result& result) {
   Json root;
   root["schema"] = "toposcope.result/1";
   root["mesh"] = {{"path", result.mesh_path},
+                  {"sha256", result.mesh_hash},
                   {"vertices", result.vertices},
                   {"faces", result.faces},
                   {"box", {{"a", result.box.a()}, {"b", result.box.b()}, {"c", result.box.c()}}},
@@ -130,6 +131,7 @@ Json document(const Result& result) {
         {"vertices", coarse->vertices}, {"faces", coarse->faces}, {"mean_edge", coarse->mean_edge}};
   for (const RepairCount& each : repair_counts(result.repair)) root["mesh"]["repair"][each.name] = each.count;
   root["model"] = result.model;
+  root["model_sha256"] = result.model_hash;
   root["status"] = result.status;
   root["class"] = result.class_name.empty() ? Json(nullptr) : Json(result.class_name);
   for (const ClassReport& each : result.classes) root["class_probabilities"][each.name] = each.probability;
@@ -172,6 +174,7 @@ std::string to_json_line(const Result& result) {
 
 std::string to_json_line(const Classification& classification) {
   Json root;
+  root["schema"] = "toposcope.classification/1";
   root["mesh"] = classification.mesh_path;
   root["model"] = classification.model;
   root["class"] = classification.class_name.empty() ? Json(nullptr) : Json(classification.class_name);

@@ -39,8 +39,7 @@ StoredResult read_result(const std::filesystem::path& file) {
     if (root.value("schema", "") != "toposcope.result/1")
       throw UsageError(file.string() + ": 'schema' is not toposcope.result/1; give what toposcope run --out wrote");
     result.mesh = root.at("mesh").at("path").get<std::string>();
-    result.vertices = root.at("mesh").at("vertices").get<Index>();
-    result.faces = root.at("mesh").at("faces").get<Index>();
+    result.mesh_hash = root.at("mesh").at("sha256").get<std::string>();
     result.model = root.at("model").get<std::string>();
     for (const auto& [name, node] : root.at("features").items()) result.features.push_back(feature_from(name, node));
   } catch (const Json::exception& error) {

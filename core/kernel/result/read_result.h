@@ -23,7 +23,7 @@ struct StoredFeature {
 struct StoredResult {
   std::string text;  ///< the document
   std::filesystem::path mesh;
-  Index vertices = 0, faces = 0;
+  std::string mesh_hash;  ///< content_hash of the mesh that it speaks of
   std::string model;
   std::vector<StoredFeature> features;
 };

@@ -70,12 +70,14 @@ struct AnalysedMesh {
 
 struct Result {
   std::string mesh_path;
+  std::string mesh_hash;  ///< of its content (mesh/content_hash.h)
   Index vertices = 0, faces = 0;
   Box box;
   double mean_edge = 0;
   std::optional<AnalysedMesh> analysed;
   RepairReport repair;  ///< of the file, before all else
   std::string model;
+  std::string model_hash;  ///< SHA-256 of what its file says, comments and layout apart
   std::string status;      ///< labelled, partial, none
   std::string class_name;  ///< for a model with class rules: the best; empty when none fits
   std::vector<ClassReport> classes;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "picture/depth_tiles.h"
+
 namespace toposcope {
 namespace {
 
@@ -50,6 +52,10 @@ Layer::Layer(const ShadedMesh& solid, const Camera& camera, int scale)
 
 void Layer::draw(int first, int last, int columns, std::vector<Sample>& samples) const {
   samples.assign(static_cast<std::size_t>(last - first) * static_cast<std::size_t>(columns), {});
+  const auto row_of = [&](int y) {
+    return samples.data() + static_cast<std::size_t>(y - first) * static_cast<std::size_t>(columns);
+  };
+  DepthTiles tiles(columns, last - first, 0);
   for (Index t = 0; t < solid_.triangles.size(); ++t) {
     const Triangle& triangle = solid_.triangles[t];
     const auto &a = corners_[triangle[0]], &b = corners_[triangle[1]], &c = corners_[triangle[2]];
@@ -62,17 +68,23 @@ void Layer::draw(int first, int last, int columns, std::vector<Sample>& samples)
     const double area = bx * cy - by * cx;
     if (left > right || area == 0 || !std::isfinite(area)) continue;
     const double scale = 1 / area, slack = -1e-9;
-    for (int y = top; y <= bottom; ++y) {
-      const double dy = y - a.y;
-      Sample* row = samples.data() + static_cast<std::size_t>(y - first) * static_cast<std::size_t>(columns);
-      for (int x = left; x <= right; ++x) {
-        const double dx = x - a.x;
-        const double beta = (dx * cy - dy * cx) * scale, gamma = (bx * dy - by * dx) * scale;
-        if (beta < slack || gamma < slack || beta + gamma > 1 - slack) continue;
-        const auto w = static_cast<float>(a.w + beta * (b.w - a.w) + gamma * (c.w - a.w));
-        if (w > row[x].w) row[x] = {w, t};
+    const auto draw_piece = [&](const DrawnBox& piece) {
+      for (int y = piece.top + first; y <= piece.bottom + first; ++y) {
+        const double dy = y - a.y;
+        Sample* row = row_of(y);
+        for (int x = piece.left; x <= piece.right; ++x) {
+          const double dx = x - a.x;
+          const double beta = (dx * cy - dy * cx) * scale, gamma = (bx * dy - by * dx) * scale;
+          if (beta < slack || gamma < slack || beta + gamma > 1 - slack) continue;
+          const auto w = static_cast<float>(a.w + beta * (b.w - a.w) + gamma * (c.w - a.w));
+          if (w > row[x].w) row[x] = {w, t};
+        }
       }
-    }
+    };
+    tiles.visit(
+        DrawnTriangle<double>{a.x, a.y - first, bx, by, cx, cy, a.w, b.w - a.w, c.w - a.w},
+        {left, right, top - first, bottom - first}, -slack, [&](int x, int y) { return row_of(y + first)[x].w; },
+        draw_piece);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "picture/depth_tiles.h"
 #include "toposcope/geometry/lines.h"
 #include "toposcope/geometry/spread_directions.h"
 
@@ -65,6 +66,10 @@ SkyLight::SkyLight(const ShadedMesh& surface, const Eigen::Matrix3d& axes, std::
 
 void SkyLight::draw(const ShadedMesh& surface, Direction& direction) const {
   direction.nearest.assign(static_cast<std::size_t>(pixels_) * static_cast<std::size_t>(pixels_), nothing);
+  const auto depth_at = [&](int x, int y) -> float& {
+    return direction.nearest[static_cast<std::size_t>(y * pixels_ + x)];
+  };
+  DepthTiles tiles(pixels_, pixels_, nothing);
   std::vector<Vec3f> corners(surface.positions.size());
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec3f q = surface.positions[i].cast<float>() - center_;
@@ -83,14 +88,18 @@ void SkyLight::draw(const ShadedMesh& surface, Direction& direction) const {
     const int right = pixel_of(std::max({a.x(), b.x(), c.x()}));
     const int top = pixel_of(std::ceil(std::min({a.y(), b.y(), c.y()})));
     const int bottom = pixel_of(std::max({a.y(), b.y(), c.y()}));
-    for (int y = top; y <= bottom; ++y)
-      for (int x = left; x <= right; ++x) {
-        const float dx = static_cast<float>(x) - a.x(), dy = static_cast<float>(y) - a.y();
-        const float beta = (dx * cy - dy * cx) / area, gamma = (bx * dy - by * dx) / area;
-        if (beta < -1e-4F || gamma < -1e-4F || beta + gamma > 1.0001F) continue;
-        float& pixel = direction.nearest[static_cast<std::size_t>(y * pixels_ + x)];
-        pixel = std::max(pixel, a.z() + beta * (b.z() - a.z()) + gamma * (c.z() - a.z()));
-      }
+    const auto draw_piece = [&](const DrawnBox& piece) {
+      for (int y = piece.top; y <= piece.bottom; ++y)
+        for (int x = piece.left; x <= piece.right; ++x) {
+          const float dx = static_cast<float>(x) - a.x(), dy = static_cast<float>(y) - a.y();
+          const float beta = (dx * cy - dy * cx) / area, gamma = (bx * dy - by * dx) / area;
+          if (beta < -1e-4F || gamma < -1e-4F || beta + gamma > 1.0001F) continue;
+          float& pixel = depth_at(x, y);
+          pixel = std::max(pixel, a.z() + beta * (b.z() - a.z()) + gamma * (c.z() - a.z()));
+        }
+    };
+    tiles.visit(DrawnTriangle<float>{a.x(), a.y(), bx, by, cx, cy, a.z(), b.z() - a.z(), c.z() - a.z()},
+                {left, right, top, bottom}, 1e-4F, depth_at, draw_piece);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <set>
 
 #include "base/errors.h"
+#include "base/json_text.h"
+#include "mesh/content_hash.h"
 
 namespace toposcope {
 namespace {
@@ -56,17 +58,23 @@ LabelledMesh read_labelled_mesh(const fs::path& file, const fs::path& mesh) {
   StoredResult result = read_result(file);
   const fs::path place = place_of(mesh, result, file);
   LabelledMesh labelled{std::move(result), read_repaired_mesh(place).mesh, {}, {}};
-  if (labelled.mesh.input_faces() != labelled.result.faces ||
-      labelled.mesh.view().vertex_count() != labelled.result.vertices)
-    throw MeshError(place.string() + ": has " + std::to_string(labelled.mesh.view().vertex_count()) + " vertices and " +
-                    std::to_string(labelled.mesh.input_faces()) + " faces, and " + file.string() + " speaks of " +
-                    std::to_string(labelled.result.vertices) + " and " + std::to_string(labelled.result.faces) +
-                    ": it is another mesh; run toposcope run on it, or give --mesh FILE");
+  if (const std::string hash = content_hash(labelled.mesh); hash != labelled.result.mesh_hash)
+    throw MeshError(place.string() + ": is not the mesh that " + file.string() + " speaks of, or was changed since " +
+                    "(sha256 of its content " + hash.substr(0, 12) + "..., not " +
+                    labelled.result.mesh_hash.substr(0, 12) + "...); run toposcope run on it, or give --mesh FILE");
   add_labels(labelled);
   for (const StoredFeature& feature : labelled.result.features)
     if (feature.present)
       labelled.found.push_back({feature.name, draw_shape(feature.parameters, region_of(labelled, feature))});
   return labelled;
+}
+
+void require_of_result(const Scene& scene, const fs::path& scene_file, const StoredResult& result,
+                       const fs::path& result_file) {
+  using Json = nlohmann::json;
+  if (Json::parse(scene.result) != Json::parse(result.text))
+    throw UsageError(scene_file.string() + ": is of another run than " + result_file.string() +
+                     "; run toposcope run --out again, or remove the scene to show what the result and its mesh tell");
 }
 
 Scene scene_of(const LabelledMesh& labelled, const Truth* truth) {

@@ -25,6 +25,10 @@ struct LabelledMesh {
 /// \throw UsageError, MeshError  the mesh is not there, or is another one
 LabelledMesh read_labelled_mesh(const std::filesystem::path& file, const std::filesystem::path& mesh = {});
 
+/// \throw UsageError  the scene is of another run than the result
+void require_of_result(const Scene& scene, const std::filesystem::path& scene_file, const StoredResult& result,
+                       const std::filesystem::path& result_file);
+
 /// What a result and its mesh alone show: without candidates and working sets, which only a run knows.
 Scene scene_of(const LabelledMesh& labelled, const Truth* truth);
 

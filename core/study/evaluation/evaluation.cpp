@@ -5,8 +5,10 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <new>
 
 #include "base/errors.h"
+#include "base/sha256.h"
 #include "evaluation/dataset_mesh.h"
 #include "result/result.h"
 
@@ -61,15 +63,21 @@ class Evaluator {
         throw UsageError(item.name + ": no truth of the model's features; put <mesh>.truth.json beside the mesh");
     } catch (const Error& error) {
       if (context.cancelled()) throw;
-      evaluation.error = error.what();
-      evaluation.judgement = {};
-      for (const ModelFeature& feature : model_.features)
-        evaluation.judgement.features.push_back({.feature = feature.name, .verdict = Verdict::missed});
+      miss_all(error.what(), evaluation);
+    } catch (const std::bad_alloc&) {
+      miss_all(item.name + ": out of memory; give fewer faces, or fewer meshes at once with --threads", evaluation);
     }
     return evaluation;
   }
 
  private:
+  void miss_all(const std::string& why, MeshEvaluation& evaluation) const {
+    evaluation.error = why;
+    evaluation.judgement = {};
+    for (const ModelFeature& feature : model_.features)
+      evaluation.judgement.features.push_back({.feature = feature.name, .verdict = Verdict::missed});
+  }
+
   void label(std::size_t number, const KnownMesh& known, MeshEvaluation& evaluation, Context& context) const {
     const auto start = std::chrono::steady_clock::now();
     const Analysis analysis = analyze(known.mesh, model_, stations_, {}, context);
@@ -78,6 +86,7 @@ class Evaluator {
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     evaluation.time_ms = took.count();
     evaluation.faces = result.faces;
+    evaluation.hash = result.mesh_hash;
     evaluation.judgement = judge(result, analysis, model_, stations_, known.truth);
     for (const RelationReport& relation : result.relations)
       if (relation.satisfied) evaluation.satisfied.push_back(relation.name);
@@ -104,6 +113,7 @@ Evaluation evaluate(const Dataset& dataset, const Model& model, const Stations& 
   evaluation.dataset = dataset.name;
   evaluation.summary = dataset.summary;
   evaluation.model = dataset.model;
+  evaluation.model_hash = sha256_of_text(model.document);
   evaluation.by_class = dataset.by_class;
   evaluation.absent = dataset.absent;
   evaluation.meshes.resize(dataset.meshes.size());

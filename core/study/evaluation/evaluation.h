@@ -18,6 +18,7 @@ class PluginHost;
 /// What was made of one mesh.
 struct MeshEvaluation {
   std::string name, object, variant;
+  std::string hash;   ///< of its content (mesh/content_hash.h); empty: it was not read
   std::string error;  ///< empty: it went through; else why not, and all its features count as missed
   Index faces = 0;
   Judgement judgement;
@@ -33,6 +34,7 @@ struct MeshEvaluation {
 
 struct Evaluation {
   std::string dataset, summary, model, pipeline;
+  std::string model_hash;  ///< SHA-256 of what its file says
   bool by_class = false;
   std::vector<MeshEvaluation> meshes;
   std::vector<std::string> absent;  ///< see Dataset

@@ -23,7 +23,7 @@ Json as_json(const MeshEvaluation& mesh) {
                                 {"distance_diagonal", judged.distance / mesh.judgement.diagonal},
                                 {"probability", judged.probability},
                                 {"offered", judged.offered}};
-  Json json = {{"name", mesh.name},   {"object", mesh.object},   {"variant", mesh.variant},
+  Json json = {{"name", mesh.name},   {"object", mesh.object},   {"variant", mesh.variant}, {"sha256", mesh.hash},
                {"faces", mesh.faces}, {"time_ms", mesh.time_ms}, {"features", features}};
   if (!mesh.error.empty()) json["error"] = mesh.error;
   if (mesh.class_known())
@@ -50,6 +50,7 @@ Json as_json(const Evaluation& evaluation) {
   Json json = {{"dataset", evaluation.dataset},
                {"summary", evaluation.summary},
                {"model", evaluation.model},
+               {"model_sha256", evaluation.model_hash},
                {"pipeline", evaluation.pipeline},
                {"judge", evaluation.by_class ? "class" : "features"},
                {"seconds", evaluation.seconds},
@@ -125,7 +126,7 @@ std::vector<Table> changes(const Evaluation& evaluation, const std::string& base
       table.note = "no data set '" + evaluation.dataset + "' there";
       return {table};
     }
-    std::size_t better = 0, worse = 0, unknown = 0;
+    std::size_t better = 0, worse = 0, unknown = 0, other = 0;
     const auto good = [](const std::string& verdict, const std::string& expected) {
       return verdict == "right" || verdict == "absent" || (!expected.empty() && verdict == expected);
     };
@@ -135,6 +136,7 @@ std::vector<Table> changes(const Evaluation& evaluation, const std::string& base
         ++unknown;
         continue;
       }
+      other += mesh.error.empty() && old->at("sha256") != mesh.hash && old->at("sha256") != "";
       const Verdicts was = verdicts_of(*old), is = verdicts_of(nlohmann::json(as_json(mesh)));
       for (const auto& [name, verdict] : is) {
         const auto at = was.find(name);
@@ -153,6 +155,8 @@ std::vector<Table> changes(const Evaluation& evaluation, const std::string& base
         reliability(all_of(evaluation)).expected_calibration_error,
         before->at("calibration").at("expected_error").get<double>());
     if (unknown > 0) table.note += fmt::format("; {} meshes are new", unknown);
+    if (other > 0) table.note += fmt::format("; {} meshes are not what they were then", other);
+    if (before->at("model_sha256") != evaluation.model_hash) table.note += "; the model is not what it was then";
   } catch (const nlohmann::json::exception& error) {
     throw UsageError(file + ": is no evaluation (" + json_fault(error) +
                      "); --baseline takes the evaluation.json of an earlier one");

@@ -41,6 +41,17 @@ void check_request(const SampleRequest& request) {
                                  request.kind, request.preset));
 }
 
+/// Whether a request can be made once it does not give one of its parameters.
+bool goes_without(SampleRequest request, const std::string& parameter) {
+  request.parameters.erase(parameter);
+  try {
+    make_solid(request.kind, requested_parameters(request));
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::vector<SampleKind> sample_kinds() {
@@ -53,6 +64,19 @@ Solid make_solid(const std::string& kind, const ParameterValues& parameters) {
   for (const Maker& maker : makers)
     if (maker.kind().name == kind) return maker.make(parameters);
   throw std::logic_error("sample kind '" + kind + "' is listed but cannot be made");
+}
+
+Solid requested_solid(const SampleRequest& request, const ParameterValues& parameters) try {
+  return make_solid(request.kind, parameters);
+} catch (const ParameterError& error) {
+  if (request.parameters.empty() || request.parameters.contains(error.parameter)) throw;
+  std::string all, alone;
+  for (const auto& [name, value] : request.parameters) {
+    const std::string words = fmt::format("{} = {}", name, value);
+    all += (all.empty() ? "" : ", ") + words;
+    if (alone.empty() && goes_without(request, name)) alone = words;
+  }
+  throw UsageError(fmt::format("{}: with {}: {}", request.kind, alone.empty() ? all : alone, error.constraint));
 }
 
 ParameterValues requested_parameters(const SampleRequest& request) {

@@ -51,7 +51,7 @@ double parameter(const ParameterValues& values, std::string_view name) {
 
 void require(bool holds, const std::string& kind, const std::string& name, double value, const std::string& constraint,
              const std::string& remedy) {
-  if (!holds) throw UsageError(fmt::format("{}: {} is {}: {}; {}", kind, name, value, constraint, remedy));
+  if (!holds) throw ParameterError(kind, name, fmt::format("{} is {}: {}; {}", name, value, constraint, remedy));
 }
 
 ParameterValues check_parameters(const SampleKind& kind, const std::map<std::string, double>& given) {

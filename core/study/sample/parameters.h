@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/errors.h"
 #include "sample/sample.h"
 
 namespace toposcope {
@@ -18,7 +19,14 @@ using ParameterValues = std::vector<std::pair<std::string, double>>;
 
 /// Fills in the defaults and checks names and ranges. \throw UsageError
 ParameterValues check_parameters(const SampleKind& kind, const std::map<std::string, double>& given);
-/// Throws UsageError "kind: <constraint>; <parameter> is <value>: <remedy>" unless `holds`.
+/// Parameters that do not go together.
+struct ParameterError : UsageError {
+  ParameterError(const std::string& kind, const std::string& of, const std::string& what)
+      : UsageError(kind + ": " + what), parameter(of), constraint(what) {}
+  std::string parameter;   ///< whose constraint fails: it need not be the one that was given
+  std::string constraint;  ///< the message without the kind
+};
+/// \throw ParameterError  "kind: <parameter> is <value>: <constraint>; <remedy>" unless `holds`
 void require(bool holds, const std::string& kind, const std::string& parameter, double value,
              const std::string& constraint, const std::string& remedy);
 

@@ -38,7 +38,7 @@ Sample make_sample(const SampleRequest& request, Context& context) {
   sample.noise_rel = request.noise_rel;
   sample.seed = request.seed;
 
-  const Solid solid = make_solid(request.kind, sample.parameters);
+  const Solid solid = requested_solid(request, sample.parameters);
   sample.mesh = mesh_solid(solid, request, context);
   const auto& triangles = sample.mesh.triangles;
   std::vector<Vec3>& positions = sample.mesh.positions;

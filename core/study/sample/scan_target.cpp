@@ -110,7 +110,7 @@ Sample make_scan_target(const SampleRequest& request, Context& context) {
   sample.truth.class_name = request.kind;
   sample.seed = request.seed;
   sample.parameters = requested_parameters(request);
-  const Solid solid = make_solid(request.kind, sample.parameters);
+  const Solid solid = requested_solid(request, sample.parameters);
   // The net may be coarse, as in make_sample: rays do not mind faces of uneven size.
   const double level = net_level(solid);
   const double diagonal = (solid.high - solid.low).norm();

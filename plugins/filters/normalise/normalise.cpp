@@ -19,6 +19,8 @@ using namespace toposcope::normalise;
 constexpr Index most_faces = 100000000;
 // Of a mesh at work, with its samples.
 constexpr double bytes_per_face = 400;
+// Times the faces that there are and that are wanted. Long faces of CAD need four times as many, before collapses.
+constexpr double most_at_work = 16;
 // Rounds that may be added while there are too many faces.
 constexpr int more_rounds = 20;
 // Of a mesh whose edges are longer than the surface has room for.
@@ -47,7 +49,10 @@ class Normalise final : public MeshFilter {
       context.log(LogLevel::warning, "normalise: the surface has no area to speak of; it is left alone");
       return;
     }
-    if (faces_ == 0) require_memory(mesh, goal.edge, context);
+    if (faces_ == 0)
+      require_memory(mesh, goal.edge, context);
+    else
+      keep_in_proportion(mesh, goal, context);
     const InputSurface surface(mesh, crease_angle_, goal.edge);
     // The shape changes by no more than the number of faces demands: at first collapses by a tenth of an edge, flips
     // and moves by half of that.
@@ -73,7 +78,7 @@ class Normalise final : public MeshFilter {
       if (left == rounds_ / 2 && faces_ == 0) {
         // Edges that vary are longer in the mean than equal ones on the same area.
         const double ratio = work.mean_edge() / wanted_edge(mesh);
-        goal.faces = static_cast<Index>(std::max(fewest_faces, std::round(goal.faces * ratio * ratio)));
+        goal.faces = face_count(goal.faces * ratio * ratio);
       }
       if (left > 2) work.split_long(1.4 * goal.edge, 2 * goal.faces, context);
     }
@@ -96,21 +101,45 @@ class Normalise final : public MeshFilter {
     }
     Goal goal{faces_, 0, at_samples * max_change_ * mesh.box.diagonal(), shape_weight_};
     const double edge = wanted_edge(mesh);
-    if (faces_ == 0)
-      goal.faces = static_cast<Index>(
-          std::clamp(std::round(4 / std::sqrt(3.0) * area / (edge * edge)), fewest_faces, double{most_faces}));
+    if (faces_ == 0) goal.faces = face_count(4 / std::sqrt(3.0) * area / (edge * edge));
     goal.edge = std::sqrt(4 / std::sqrt(3.0) * area / goal.faces);
     return goal;
   }
 
+  /// What may be no number, or none that an index holds, may be no count.
+  static Index face_count(double wanted) {
+    if (!(wanted > fewest_faces)) return static_cast<Index>(fewest_faces);
+    return wanted < most_faces ? static_cast<Index>(std::round(wanted)) : most_faces;
+  }
+
   // Splits of long edges come before all collapses: a face needs as many as its area or its longest edge asks for.
-  static void require_memory(const MeshView& mesh, double edge, const Context& context) {
+  static double faces_at_work(const MeshView& mesh, double edge) {
     double faces = 0;
     for (const Triangle& t : mesh.triangles) {
       const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
       const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
       faces += 1 + std::max(2 / std::sqrt(3.0) * (b - a).cross(c - a).norm() / (edge * edge), longest / edge);
     }
+    return faces;
+  }
+
+  /// A number of faces says nothing of the length: a thin surface has little area for so many, and the edges that they
+  /// would have fit a multitude of times into its length. Such a surface gets longer edges.
+  static void keep_in_proportion(const MeshView& mesh, Goal& goal, Context& context) {
+    const auto held = static_cast<double>(context.memory_budget()) / bytes_per_face;
+    if (goal.faces > held) {
+      context.log(LogLevel::warning, "normalise: memory holds about " + std::to_string(face_count(held)) +
+                                         " faces at work, not " + std::to_string(goal.faces) + "; so many are made");
+      const Index fewer = face_count(held);
+      goal.edge *= std::sqrt(static_cast<double>(goal.faces) / fewer);
+      goal.faces = fewer;
+    }
+    const double most = std::min(held, most_at_work * (static_cast<double>(goal.faces) + mesh.face_count()));
+    while (faces_at_work(mesh, goal.edge) > most && goal.edge < mesh.box.diagonal()) goal.edge *= 1.25;
+  }
+
+  static void require_memory(const MeshView& mesh, double edge, const Context& context) {
+    const double faces = faces_at_work(mesh, edge);
     if (faces <= most_faces && faces * bytes_per_face <= static_cast<double>(context.memory_budget())) return;
     char needed[96];
     std::snprintf(needed, sizeof needed, "about %.3g faces and %.3g bytes", faces, faces * bytes_per_face);

@@ -39,7 +39,10 @@ SolverOutput parse_output(const std::string& text, const LabelingProblem& proble
     labelling_follows = line.starts_with("New solution:");
     for (const std::string start : {"Initial lower and upper bounds: [", "Optimality gap: ["})
       if (line.starts_with(start)) output.lower_bound = std::strtod(line.c_str() + start.size(), nullptr);
-    output.optimal = output.optimal || line.starts_with("Optimum:");
+    if (const std::string start = "Optimum:"; line.starts_with(start)) {
+      output.optimal = true;
+      output.optimum = std::strtod(line.c_str() + start.size(), nullptr);
+    }
     output.unsatisfiable = output.unsatisfiable || line.starts_with("No solution");
     if (line.starts_with("Optimum:") || line.starts_with("No solution")) {
       output.backtracks = number_before(line, "backtracks");

@@ -14,6 +14,7 @@ namespace toposcope::toulbar2 {
 struct SolverOutput {
   std::vector<Index> values;  ///< of the last labelling; empty: none
   std::optional<double> lower_bound;
+  std::optional<double> optimum;  ///< as it was stated
   bool optimal = false, unsatisfiable = false;
   std::uint64_t backtracks = 0, nodes = 0;
   std::string last_line;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 
@@ -34,6 +35,16 @@ LabelingOutcome counted(const SolverOutput& output) {
   return outcome;
 }
 
+/// An optimum that its own labelling does not have proves nothing: a fault of the solver, or a problem beyond its
+/// numbers.
+std::string contradiction(double cost, const SolverOutput& output, double rounding) {
+  if (!output.optimum || std::abs(*output.optimum - cost) <= 2 * rounding + 1e-9 * std::abs(cost)) return "";
+  char words[160];
+  std::snprintf(words, sizeof words, "not proven: toulbar2 states an optimum of %.10g, and its labelling costs %.10g",
+                *output.optimum, cost);
+  return words;
+}
+
 LabelingOutcome proven(const LabelingProblem& problem, const SolverOutput& output, const WrittenProblem& written) {
   LabelingOutcome outcome = counted(output);
   outcome.optimal = true;
@@ -45,6 +56,14 @@ LabelingOutcome proven(const LabelingProblem& problem, const SolverOutput& outpu
   }
   if (output.values.empty()) throw std::runtime_error("toulbar2 proved an optimum but printed no labelling");
   outcome.labelings = {{output.values, cost_of(problem, output.values)}};
+  const double printed = 0.5 * std::pow(10.0, -written.decimals);
+  if (const std::string contradicted =
+          contradiction(outcome.labelings[0].cost, output, rounding_of(problem, written) + printed);
+      !contradicted.empty()) {
+    outcome.optimal = false;
+    outcome.guarantee = contradicted;
+    return outcome;
+  }
   const bool whole = written.exact && written.decimals == 0;  // sums without rounding
   outcome.lower_bound = outcome.labelings[0].cost - (whole ? 0 : rounding_of(problem, written));
   outcome.guarantee = "least cost: proven by toulbar2";

@@ -79,8 +79,9 @@ TEST(CommandLine, PlacesThatCannotBeReadOrWrittenAreNamed) {
 TEST(CommandLine, AnOutputThatCannotBeWrittenIsTold) {
   const TemporaryFolder folder;
   write_text(folder / "t.off", triangle);
-  for (const std::string& command : {std::string("plugins list --json"), std::string("sample --list"),
-                                     "prepare --json " + (folder / "t.off").string()})
+  for (const std::string& command :
+       {std::string("plugins list --json"), std::string("sample --list"), std::string("--version"),
+        std::string("run --help"), "prepare --json " + (folder / "t.off").string()})
     for (const char* output : {" >/dev/full", " >&-"}) {
       const Outcome outcome = toposcope(command + output);
       EXPECT_EQ(outcome.exit_code, 2) << command << output;

@@ -6,12 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "support/program.h"
+#include "support/schemas.h"
 
 namespace toposcope::test {
 namespace {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 namespace fs = std::filesystem;
 
@@ -40,6 +42,18 @@ TEST_F(EvaluateCommand, WritesTablesInFourForms) {
 
   const Outcome again = toposcope("evaluate " + set + " --baseline " + out + "/evaluation.json");
   EXPECT_THAT(again.out, HasSubstr("0 better, 0 worse"));
+  EXPECT_THAT(again.out, Not(HasSubstr("not what")));
+  EXPECT_EQ(schema_faults("evaluation", read_text(out + "/evaluation.json")), "");
+
+  // Of another model and another mesh nothing can be said to have changed.
+  json other = result;
+  other["datasets"][0]["model_sha256"] = std::string(64, '0');
+  other["datasets"][0]["meshes"][0]["sha256"] = std::string(64, '0');
+  write_text(folder_ / "other.json", other.dump());
+  const Outcome against = toposcope("evaluate " + set + " --baseline " + (folder_ / "other.json").string());
+  EXPECT_THAT(against.out, HasSubstr("1 meshes are not what they were then; the model is not what it was then"));
+  write_text(folder_ / "empty.json", "");
+  EXPECT_EQ(toposcope("evaluate " + set + " --baseline " + (folder_ / "empty.json").string()).exit_code, 2);
 }
 
 TEST_F(EvaluateCommand, AbsentMeshesAreLeftOutLoudly) {
@@ -55,6 +69,11 @@ TEST_F(EvaluateCommand, BadUsageNamesThePlace) {
            {"absent.yaml", "absent.yaml"},
            {dataset("model: cupp\nmeshes: [{kind: cup, faces: [4000]}]\n", "cupp.yaml"), "cup"},
            {dataset("model: cup\nmeshes: [{kind: cup, faces: [4000]}]\n") + " --baseline absent.json", "absent.json"},
+           {dataset("model: cup\nmeshes: [{kind: cup, faces: [4000], prest: mug}]\n", "prest.yaml"),
+            "4:40: unknown key 'prest' in 'meshes.0'; did you mean 'preset'?"},
+           {dataset("model: cup\nmeshes: [{files: '*.off', optionl: true}]\n", "optionl.yaml"),
+            "did you mean 'optional'?"},
+           {dataset("model: cup\nmeshes: [{kind: cup, faces: [4]}]\n", "few.yaml"), "meshes.0.faces.0' is 4"},
            {dataset("model: cup\nmeshes: [{kind: cup, faces: [4000]}]\n") + " --json --csv", "exclud"}}) {
     const Outcome outcome = toposcope("evaluate " + arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;

@@ -95,10 +95,44 @@ TEST_F(Report, WithoutASceneShowsWhatResultAndMeshTell) {
   EXPECT_EQ(lost.exit_code, 3);
   EXPECT_NE(lost.err.find("--mesh"), std::string::npos) << lost.err;
   EXPECT_EQ(run("report out/cup --mesh moved.ply").exit_code, 0);
-  ASSERT_EQ(run("sample cup --faces 4000 -o other.ply").exit_code, 0);
-  const Outcome other = run("report out/cup --mesh other.ply");
-  EXPECT_EQ(other.exit_code, 3);
-  EXPECT_NE(other.err.find("another mesh"), std::string::npos) << other.err;
+}
+
+/// Of as many vertices and faces, but another: a noise that is hardly seen.
+TEST_F(Report, AMeshThatWasChangedIsRefused) {
+  ASSERT_EQ(run("run cup.ply --model cup --out out --no-report").exit_code, 0);
+  ASSERT_EQ(run("sample cup --faces 3000 --noise 1e-7 -o other.ply").exit_code, 0);
+  ASSERT_EQ(run("prepare cup.ply -q -o copy.obj").exit_code, 0);
+  for (const char* command : {"report", "render --size 64x48"}) {  // also where the scene has all that it needs
+    const Outcome other = run(std::string(command) + " out/cup --mesh other.ply");
+    EXPECT_EQ(other.exit_code, 3) << command;
+    EXPECT_NE(other.err.find("other.ply: is not the mesh"), std::string::npos) << other.err;
+  }
+  EXPECT_EQ(run("export out/cup --mesh other.ply").exit_code, 3);
+  EXPECT_EQ(run("report out/cup --mesh copy.obj").exit_code, 0) << "the same in another format";
+  fs::rename(folder_ / "other.ply", folder_ / "cup.ply");
+  EXPECT_EQ(run("export out/cup").exit_code, 3);
+}
+
+TEST_F(Report, ASceneOfAnotherRunIsRefused) {
+  ASSERT_EQ(run("run cup.ply --model cup --out a --no-report").exit_code, 0);
+  ASSERT_EQ(run("run cup.ply --model neal-1999/cup --pipeline neal-1999 --out b --no-report").exit_code, 0);
+  fs::copy_file(folder_ / "b/cup/scene.json", folder_ / "a/cup/scene.json", fs::copy_options::overwrite_existing);
+  for (const char* command : {"report", "render --size 64x48"}) {
+    const Outcome mixed = run(std::string(command) + " a/cup");
+    EXPECT_EQ(mixed.exit_code, 2) << command;
+    EXPECT_NE(mixed.err.find("scene.json: is of another run than a/cup/result.json"), std::string::npos) << mixed.err;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "a/cup/report.html"));
+  EXPECT_EQ(run("report b/cup").exit_code, 0);
+}
+
+TEST_F(Report, ASceneThatCannotBeReadIsNotPassedOver) {
+  ASSERT_EQ(run("run cup.ply --model cup --out out --no-report").exit_code, 0);
+  fs::remove(folder_ / "out/cup/scene.json");
+  fs::create_symlink("gone.json", folder_ / "out/cup/scene.json");
+  const Outcome outcome = run("report out/cup");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("scene.json' cannot be read"), std::string::npos) << outcome.err;
 }
 
 TEST_F(Report, SaysWhereThereIsNoResult) {

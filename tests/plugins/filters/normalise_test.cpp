@@ -255,6 +255,16 @@ TEST(Normalise, RealMeshes) {
   }
 }
 
+/// So long for its area that its faces' edges would fit a million times into its length.
+TEST(Normalise, ANeedleTakesWorkInProportion) {
+  TriangleSoup needle = make_cylinder(1e-6, 2, 40, 18);
+  Listening listening;
+  const TriangleSoup result = normalised(needle, 500, {}, listening.context).mesh;
+  EXPECT_TRUE(is_manifold(result));
+  EXPECT_LT(result.triangles.size(), 16 * (500 + needle.triangles.size()));
+  EXPECT_ANY_THROW(filtered("normalise", needle, {{"edge", "1e-9"}}));
+}
+
 /// There is no room for an edge of the wanted length: the goal may not fall to no face at all.
 TEST(Normalise, OneTriangleAndASurfaceWithoutAreaComeBack) {
   const auto single = [](const Vec3& top) {

@@ -13,6 +13,7 @@
 #include "support/labeling_problems.h"
 #include "support/planted_problems.h"
 #include "support/plugins.h"
+#include "support/program.h"
 #include "toposcope/labeling/tools.h"
 #include "toposcope/system/programs.h"
 
@@ -81,6 +82,28 @@ TEST(Toulbar2Output, WhatWasPrintedBeforeTheEnd) {
   EXPECT_TRUE(whole.optimal);
   EXPECT_EQ(whole.backtracks, 10U);
   EXPECT_EQ(whole.nodes, 24U);
+}
+
+/// A program of that name that states what its labelling does not cost.
+TEST(Toulbar2Contradicting, IsNotTakenForProven) {
+  const test::TemporaryFolder folder;
+  LabelingProblem problem;
+  problem.variables = {{.name = "a", .costs = {1, 3}, .optional = false}};
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (folder.path.string() + ":" + path).c_str(), 1);
+  for (const auto& [stated, proven] :
+       {std::pair("3.000", true), std::pair("2.000", false), std::pair("1.000", false)}) {
+    test::write_text(folder / "toulbar2",
+                     std::string("#!/bin/sh\nprintf 'New solution: 3 (0 backtracks)\\n 1\\nOptimum: ") + stated +
+                         " in 0 backtracks and 1 nodes\\n'\n");
+    std::filesystem::permissions(folder / "toulbar2", std::filesystem::perms::owner_all);
+    const LabelingOutcome outcome = test::labeler("toulbar2")->solve(problem, {}, test::context());
+    EXPECT_EQ(outcome.optimal, proven) << stated;
+    ASSERT_EQ(outcome.labelings.size(), 1U);
+    EXPECT_EQ(outcome.labelings[0].cost, 3);
+    EXPECT_EQ(outcome.guarantee.find("states an optimum of") != std::string::npos, !proven) << outcome.guarantee;
+  }
+  setenv("PATH", path.c_str(), 1);
 }
 
 TEST(Toulbar2Absent, IsSaid) {

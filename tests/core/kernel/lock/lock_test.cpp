@@ -11,7 +11,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "lock/sha256.h"
+#include "base/sha256.h"
 #include "support/program.h"
 
 namespace toposcope::test {
@@ -99,6 +99,15 @@ TEST_F(Lock, AByteInTheModelIsRefused) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("model '" + model().string()), HasSubstr("is another"),
                                  Not(HasSubstr("plugin '")), Not(HasSubstr("mesh '"))));
+}
+
+TEST_F(Lock, AnotherProgramOfTheSameVersionIsRefused) {
+  auto document = nlohmann::json::parse(read_text(lock()));
+  document["program"]["file"]["sha256"] = std::string(64, '0');
+  write_text(lock(), document.dump());
+  const Outcome outcome = locked();
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("program '"), HasSubstr("is another"), Not(HasSubstr("plugin '"))));
 }
 
 TEST_F(Lock, AByteInAMeshIsRefused) {

@@ -115,17 +115,14 @@ inline void expect_same(const TriangleSoup& a, const TriangleSoup& b, const std:
   EXPECT_EQ(a.face_origin, b.face_origin) << what;
 }
 
-enum class Twice { same, same_unless_taken_apart };
-
-inline RepairReport repaired(TriangleSoup& soup, const std::string& what, Twice twice = Twice::same) {
+/// Repaired, and then once more, which changes nothing.
+inline RepairReport repaired(TriangleSoup& soup, const std::string& what) {
   const RepairReport report = repair(soup, what);
   expect_oriented_manifold(soup, what);
-  TriangleSoup again = soup;
-  repair(again, what);
-  if (twice == Twice::same || !report.notable())
-    expect_same(again, soup, what + " repaired twice");
-  else
-    expect_oriented_manifold(again, what + " repaired twice");
+  TriangleSoup again = soup_of(soup.positions, soup.triangles);
+  EXPECT_FALSE(repair(again, what).changed()) << what << " repaired twice";
+  EXPECT_EQ(again.positions, soup.positions) << what << " repaired twice";
+  EXPECT_EQ(again.triangles, soup.triangles) << what << " repaired twice";
   return report;
 }
 

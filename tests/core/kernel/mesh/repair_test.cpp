@@ -209,8 +209,7 @@ TEST(Repair, MakesManifoldsOfAnything) {
     for (int f = 0; f < faces; ++f) triangles.push_back({corner(random), corner(random), corner(random)});
     TriangleSoup soup = soup_of(positions, triangles);
     try {
-      const RepairReport report =
-          repaired(soup, "random soup " + std::to_string(round), Twice::same_unless_taken_apart);
+      const RepairReport report = repaired(soup, "random soup " + std::to_string(round));
       EXPECT_EQ(soup.triangles.size() + report.degenerate_faces + report.duplicate_faces, triangles.size());
       EXPECT_EQ((report.euler + report.holes) % 2, 0) << "of an oriented surface, 2 components - 2 genus";
       EXPECT_GE(report.genus, 0);

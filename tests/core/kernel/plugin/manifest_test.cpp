@@ -26,7 +26,7 @@ PluginManifest example() {
   manifest.summary = "A group of \"line\" segments, \xce\xba";
   manifest.citation = "Neal 1999, 4.4";
   manifest.fingerprint = "cxxabi=1";
-  manifest.abi_major = 1;
+  manifest.abi_major = abi_major;
   manifest.min_arity = 1;
   manifest.dimension = 1;
   manifest.max_arity = 0;
@@ -111,6 +111,16 @@ TEST(PluginManifest, EveryFieldIsNeededAndTyped) {
     EXPECT_THAT(error_after([&](auto& json) { json.erase(name); }), HasSubstr(": " + name + ": is missing"));
     EXPECT_THAT(error_after([&](auto& json) { json[name] = nullptr; }), HasSubstr(": " + name + ": must be"));
   }
+}
+
+/// What else differs follows from it.
+TEST(PluginManifest, OfAnotherAbiIsToldByThatAlone) {
+  EXPECT_THAT(error_after([](auto& json) {
+                json["abi"] = {{"major", 2}, {"minor", 1}};
+                json.erase("dimension");
+                json["needs"] = "x";
+              }),
+              HasSubstr("it was built for plugin ABI 2.1, this program has ABI " + std::to_string(abi_major) + "."));
 }
 
 TEST(PluginManifest, WrongFieldsAreNamed) {

@@ -60,5 +60,31 @@ TEST(ResultSchema, HoldsForFoundMissingAndClassifiedFeatures) {
   EXPECT_EQ(schema_faults("truth", read_text(folder / "cup.truth.json")), "");
 }
 
+TEST(JsonOutput, OfEveryCommandKeepsToASchema) {
+  const TemporaryFolder folder;
+  const std::string cup = (folder / "cup.ply").string(), problem = (folder / "cup.json").string();
+  ASSERT_EQ(toposcope("sample cup --faces 3000 -o " + cup).exit_code, 0);
+  ASSERT_EQ(toposcope("run " + cup + " --model cup -q --save-problem " + problem).exit_code, 0);
+  const std::pair<const char*, std::string> commands[] = {
+      {"result", "run " + cup + " --model cup --json"},
+      {"classification", "classify " + cup + " --models cup,pipe-fitting --json"},
+      {"preparation", "prepare " + cup + " --json"},
+      {"preparation", "prepare " + cup + " --decimate 1000 --json -o " + (folder / "few.ply").string()},
+      {"labeling", "label " + problem + " --json --marginals --k-best 3"},
+      {"labeling", "label " + problem + " --json --labeler discrete-relaxation"},
+      {"comparison", "compare " + cup + " --model cup --labelers least-error,annealing --json"},
+      {"plugins", "plugins list --json"},
+      {"plugin", "plugins describe circle --json"},
+      {"check", "plugins check --json " TOPOSCOPE_BUILD_DIR "/plugins/relations/parallel.so"}};
+  for (const auto& [schema, command] : commands) {
+    const Outcome outcome = toposcope(command);
+    EXPECT_EQ(outcome.exit_code, 0) << command << outcome.err;
+    EXPECT_EQ(schema_faults(schema, outcome.out), "") << command;
+    json broken = json::parse(outcome.out);
+    broken.erase("schema");
+    EXPECT_NE(schema_faults(schema, broken.dump()), "") << schema;
+  }
+}
+
 }  // namespace
 }  // namespace toposcope::test

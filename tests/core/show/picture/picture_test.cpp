@@ -258,6 +258,25 @@ TEST_F(Render, NamesPicturesAsAsked) {
   EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\0\x40\0\0\0\x30", 8));  // width, height
 }
 
+TEST_F(Render, TakesAFolderForPictures) {
+  ASSERT_EQ(
+      test::toposcope("render --stage mesh,found --size 64x48 -o " + path("new/") + " " + path("out/cup")).exit_code,
+      0);
+  EXPECT_TRUE(there("new/mesh.png") && there("new/found.png"));
+  ASSERT_EQ(test::toposcope("render --size 64x48 -o " + path("new") + " " + path("out/cup")).exit_code, 0);
+  EXPECT_TRUE(there("new/found.png"));
+}
+
+TEST_F(Render, SaysOfWhichStageThereIsNothing) {
+  std::filesystem::remove(folder_ / "cup.truth.json");
+  ASSERT_EQ(test::toposcope("run " + path("cup.ply") + " --model cup --no-report --out " + path("out")).exit_code, 0);
+  const test::Outcome outcome = test::toposcope("render --stage marks,found --size 64x48 " + path("out/cup"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("has nothing to show of marks"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(there("out/cup/found.png"));
+  EXPECT_EQ(test::toposcope("render --stage all --size 64x48 " + path("out/cup")).exit_code, 0);
+}
+
 TEST_F(Render, RefusesWhatItCannotDo) {
   for (const std::string arguments : {"--size 10", "--size 0x10", "--size 64x48x", "--size 99999x10", "--view up",
                                       "--up q", "--stage floor", "--background pink"}) {
