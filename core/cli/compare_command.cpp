@@ -80,6 +80,7 @@ std::vector<Contender> contenders_of(const std::string& list, Session& session) 
 class Gallery {
  public:
   void add(const Comparison& comparison, std::vector<LabelerView> views, Context& context) {
+    if (views.empty()) return cards_.push_back({});  // no labeler gave anything to show
     cards_.push_back({thumbnail_of(views.front().scene, context), ""});
     // Of one mesh, that on which labelers differ most: side by side on others they would look the same.
     std::set<std::vector<std::pair<std::string, Index>>> labelings;
@@ -128,6 +129,12 @@ int compare(const CompareOptions& options) {
     session.status("");
     if (text) say("{}", to_text(comparisons.back()));
     flush_output();
+    std::vector<std::string> failed;
+    for (const Entry& entry : comparisons.back().entries)
+      if (!entry.error.empty()) failed.push_back(entry.labeler + " (" + entry.error + ")");
+    if (!failed.empty())
+      throw Error(path.string() + ": " + not_done(contenders.size(), "labelers", failed),
+                  PluginError("", "").exit_code);
   });
   if (!options.out.empty()) {
     write_file(options.out / "comparison.json", to_json(comparisons));

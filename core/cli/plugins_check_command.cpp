@@ -50,14 +50,16 @@ Checked of_library(const fs::path& library) {
 }
 
 /// Everything that the paths name: a library, or a folder with manifests.
-std::vector<Checked> collect(const CheckOptions& options) {
+/// \param absent  receives what is not there
+std::vector<Checked> collect(const CheckOptions& options, std::vector<std::string>& absent) {
   std::vector<Checked> all;
   std::vector<PluginFolder> folders;
   for (const fs::path& path : options.paths) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (!fs::exists(status)) throw UsageError(path.string() + ": no such file or folder (" + error.message() + ")");
-    if (fs::is_directory(status))
+    if (!fs::exists(status))
+      absent.push_back(path.string() + ": no such file or folder (" + error.message() + ")");
+    else if (fs::is_directory(status))
       folders.push_back({fs::absolute(path), true});
     else
       all.push_back(of_library(path));
@@ -73,7 +75,7 @@ std::vector<Checked> collect(const CheckOptions& options) {
   for (const PluginKind kind : plugin_kinds)
     for (const PluginManifest* plugin : catalog.all(kind))
       all.push_back({plugin->id, plugin->version, std::string(to_string(kind)), plugin->library, {}});
-  if (all.empty())
+  if (all.empty() && absent.empty())
     throw UsageError("no plugin found; give libraries, or folders that hold libraries and <id>.plugin.json files");
   return all;
 }
@@ -116,7 +118,8 @@ void check_memory(std::vector<Checked>& plugins, const Context& context) {
 
 int plugins_check(const CheckOptions& options) {
   if (!options.children.empty()) return examine_here(options.children, options.brief);
-  std::vector<Checked> plugins = collect(options);
+  std::vector<std::string> absent;
+  std::vector<Checked> plugins = collect(options, absent);
   RunContext context({.threads = 1});  // what a signal cancels
   const Interruption interruption(context);
   for (Checked& plugin : plugins) {
@@ -134,7 +137,8 @@ int plugins_check(const CheckOptions& options) {
     for (std::size_t i = 0; options.valgrind && i < plugins.size(); ++i) show(plugins[i]);
     say("{} pass, {} fail\n", good, plugins.size() - good);
   }
-  return good == plugins.size() ? 0 : 4;
+  for (const std::string& each : absent) complain(each);
+  return good < plugins.size() ? PluginError("", "").exit_code : absent.empty() ? 0 : UsageError("").exit_code;
 }
 
 }  // namespace

@@ -110,7 +110,8 @@ int for_each_mesh(const std::vector<fs::path>& meshes, Session& session,
   std::vector<std::string> failed;
   const auto fail = [&](const fs::path& mesh, const Failure& failure) {
     session.status("");
-    complain(failure.message);
+    const bool named = failure.message.find(mesh.string()) != std::string::npos;
+    complain(named ? failure.message : mesh.string() + ": " + failure.message);
     failed.push_back(mesh.string());
     if (code == 0) code = failure.exit_code;
   };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/expression.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -12,6 +14,12 @@
 #include "model/expression_program.h"
 
 namespace toposcope {
+namespace {
+
+/// Thickness of a box, as part of its length, below which it has none.
+constexpr double flat_box = 1e-12;
+
+}  // namespace
 
 double Expression::evaluate(const ExpressionBoxes& boxes) const {
   std::array<double, Program::max_stack> stack;
@@ -98,8 +106,19 @@ double positive_on_mesh(const Expression& expression, const ExpressionBoxes& box
                         const std::string& what) {
   const double value = expression.evaluate(boxes);
   if (value > 0 && std::isfinite(value)) return value;
-  throw UsageError(where.str() + ": " + what + " '" + expression.text() + "' is " + std::to_string(value) +
-                   " on this mesh; it must be positive");
+  refuse_on_mesh(expression, boxes, where, what, "must be positive");
+}
+
+void refuse_on_mesh(const Expression& expression, const ExpressionBoxes& boxes, const SourceLocation& where,
+                    const std::string& what, const std::string& needed) {
+  const std::string is = fmt::format("{} '{}' is {:.4g}", what, expression.text(), expression.evaluate(boxes));
+  // A model may ask for thickness: then it is the mesh that is wrong.
+  if (const Box& box = boxes.object; !(box.c() > flat_box * box.a()))
+    throw MeshError(
+        fmt::format("the mesh is flat: its box is {:.4g} x {:.4g} x {:.4g}, and the model asks for more: "
+                    "{}: {}; give a mesh of the whole object, or a model of flat ones",
+                    box.a(), box.b(), box.c(), where.str(), is));
+  throw UsageError(fmt::format("{}: {} on this mesh; it {}", where.str(), is, needed));
 }
 
 }  // namespace toposcope

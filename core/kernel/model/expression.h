@@ -38,7 +38,12 @@ class Expression {
   friend struct ExpressionParser;
 };
 
-/// The value of an expression that must be positive, such as a tolerance. \throw UsageError  it is not, on this mesh
+/// An expression whose value cannot be used on a mesh. \throw MeshError  the mesh is flat; UsageError  else
+[[noreturn]] void refuse_on_mesh(const Expression& expression, const ExpressionBoxes& boxes,
+                                 const SourceLocation& where, const std::string& what, const std::string& needed);
+
+/// The value of an expression that must be positive, such as a tolerance. \throw UsageError, MeshError  it is not, on
+/// this mesh
 double positive_on_mesh(const Expression& expression, const ExpressionBoxes& boxes, const SourceLocation& where,
                         const std::string& what);
 

@@ -22,8 +22,7 @@ std::vector<OptionValue> relation_arguments(const MeshView& mesh, const Relation
     if (value == values.end()) value = values.insert(value, {name, 0, ""});
     value->number = expression.evaluate({mesh.box, Box{}});
     if (!std::isfinite(value->number))
-      throw UsageError(relationship.where.str() + ": '" + name + ": " + expression.text() +
-                       "' is no number on this mesh; mind divisions by a box side of 0");
+      refuse_on_mesh(expression, {mesh.box, Box{}}, relationship.where, name, "must be a number; mind divisions by 0");
   }
   check_order(station.arguments, values,
               relationship.where.str() + ": relationship '" + relationship.name + "' on this mesh");

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <new>
 
+#include "base/errors.h"
 #include "result/result.h"
 #include "toposcope/labeling/tools.h"
 
@@ -45,6 +48,27 @@ Entry entry_of(const Contender& contender, const ClassOutcome& best, double time
   return entry;
 }
 
+/// One labeler that cannot leaves the others to be compared.
+std::string label_or_say_why(Analysis& analysis, const Model& model, const Stations& stations,
+                             const LabelingRequest& request, Context& context) try {
+  label(analysis, model, stations, request, context);
+  return "";
+} catch (const PluginError& error) {
+  return error.what();
+} catch (const std::bad_alloc&) {
+  return "labeler '" + stations.labeler.id + "': out of memory";
+}
+
+Entry failed_entry(const Contender& contender, const std::string& error) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Entry entry;
+  entry.labeler = contender.name;
+  entry.cost = entry.bound = entry.posterior = entry.time_ms = none;
+  entry.guarantee = "none: it failed";
+  entry.error = error;
+  return entry;
+}
+
 }  // namespace
 
 Comparison compare(Analysis& analysis, const Model& model, const Stations& stations, const std::string& mesh,
@@ -55,7 +79,10 @@ Comparison compare(Analysis& analysis, const Model& model, const Stations& stati
   for (const Contender& contender : contenders) {
     Stations with = stations;
     with.labeler = {contender.id, contender.labeler};
-    label(analysis, model, with, request, context);
+    if (const std::string error = label_or_say_why(analysis, model, with, request, context); !error.empty()) {
+      comparison.entries.push_back(failed_entry(contender, error));
+      continue;
+    }
     double time_ms = 0;
     std::uint64_t nodes = 0;
     for (const ClassOutcome& solved : analysis.classes) {
@@ -74,6 +101,7 @@ Comparison compare(Analysis& analysis, const Model& model, const Stations& stati
     comparison.entries.back().of = judged.features.size();
   }
   for (Entry& entry : comparison.entries) {
+    if (!entry.error.empty()) continue;
     for (const ClassBound& each : bounds)
       if (each.name == entry.class_name) entry.bound = each.bound;
     entry.proven = entry.cost < forbidden && same_cost(entry.cost, entry.bound);
@@ -92,6 +120,7 @@ std::vector<Total> totals(const std::vector<Comparison>& comparisons) {
     std::size_t with_posterior = 0;
     for (const Comparison& comparison : comparisons) {
       const Entry& entry = comparison.entries[i];
+      if (!entry.error.empty()) continue;
       ++total.meshes;
       total.proven += entry.proven;
       if (entry.cost < forbidden) {
@@ -112,6 +141,7 @@ std::vector<Total> totals(const std::vector<Comparison>& comparisons) {
     total.mean_gap /= static_cast<double>(total.meshes - total.unsound);
     total.mean_posterior /= static_cast<double>(with_posterior);
     std::sort(times.begin(), times.end());
+    if (times.empty()) times = {std::numeric_limits<double>::quiet_NaN()};
     total.median_ms = (times[(times.size() - 1) / 2] + times[times.size() / 2]) / 2;
     total.worst_ms = times.back();
     all.push_back(std::move(total));

@@ -33,6 +33,7 @@ struct Entry {
   std::uint64_t nodes = 0;
   std::optional<std::size_t> right, of;  ///< features right of those that the truth tells of; none without truth
   std::string guarantee;
+  std::string error = {};  ///< empty: it went through; else why there is no labelling
   double gap() const { return cost - bound; }
 };
 

@@ -40,19 +40,21 @@ Column labeler_column() {
 Json as_json(const Entry& entry) {
   Json labeling = Json::object();
   for (const auto& [feature, candidate] : entry.labeling) labeling[feature] = candidate == 0 ? Json() : Json(candidate);
-  return {{"labeler", entry.labeler},
-          {"class", entry.class_name},
-          {"labeling", labeling},
-          {"cost", entry.cost},
-          {"bound", entry.bound},
-          {"gap", entry.gap()},
-          {"proven", entry.proven},
-          {"posterior", entry.posterior},
-          {"time_ms", entry.time_ms},
-          {"nodes", entry.nodes},
-          {"right", entry.right ? Json(*entry.right) : Json()},
-          {"of", entry.of ? Json(*entry.of) : Json()},
-          {"guarantee", entry.guarantee}};
+  Json json = {{"labeler", entry.labeler},
+               {"class", entry.class_name},
+               {"labeling", labeling},
+               {"cost", entry.cost},
+               {"bound", entry.bound},
+               {"gap", entry.gap()},
+               {"proven", entry.proven},
+               {"posterior", entry.posterior},
+               {"time_ms", entry.time_ms},
+               {"nodes", entry.nodes},
+               {"right", entry.right ? Json(*entry.right) : Json()},
+               {"of", entry.of ? Json(*entry.of) : Json()},
+               {"guarantee", entry.guarantee}};
+  if (!entry.error.empty()) json["error"] = entry.error;
+  return json;
 }
 
 Json as_json(const Total& total) {

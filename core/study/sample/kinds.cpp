@@ -41,9 +41,8 @@ void check_request(const SampleRequest& request) {
                                  request.kind, request.preset));
 }
 
-/// Whether a request can be made once it does not give one of its parameters.
-bool goes_without(SampleRequest request, const std::string& parameter) {
-  request.parameters.erase(parameter);
+/// Whether parameters make a solid; it may yet be too fine to be meshed.
+bool can_be_made(const SampleRequest& request) {
   try {
     make_solid(request.kind, requested_parameters(request));
     return true;
@@ -61,22 +60,27 @@ std::vector<SampleKind> sample_kinds() {
 }
 
 Solid make_solid(const std::string& kind, const ParameterValues& parameters) {
-  for (const Maker& maker : makers)
-    if (maker.kind().name == kind) return maker.make(parameters);
+  try {
+    for (const Maker& maker : makers)
+      if (maker.kind().name == kind) return maker.make(parameters);
+  } catch (const std::domain_error& error) {
+    throw ParameterError(kind, "", std::string(error.what()) + "; give lengths that leave room for each other");
+  }
   throw std::logic_error("sample kind '" + kind + "' is listed but cannot be made");
 }
 
-Solid requested_solid(const SampleRequest& request, const ParameterValues& parameters) try {
-  return make_solid(request.kind, parameters);
-} catch (const ParameterError& error) {
-  if (request.parameters.empty() || request.parameters.contains(error.parameter)) throw;
+UsageError blaming_what_was_given(const SampleRequest& request, const ParameterError& error) {
+  if (request.parameters.empty() || request.parameters.contains(error.parameter)) return error;
+  const bool has_solid = can_be_made(request);
   std::string all, alone;
   for (const auto& [name, value] : request.parameters) {
     const std::string words = fmt::format("{} = {}", name, value);
     all += (all.empty() ? "" : ", ") + words;
-    if (alone.empty() && goes_without(request, name)) alone = words;
+    SampleRequest without = request;
+    without.parameters.erase(name);
+    if (alone.empty() && !has_solid && can_be_made(without)) alone = words;
   }
-  throw UsageError(fmt::format("{}: with {}: {}", request.kind, alone.empty() ? all : alone, error.constraint));
+  return UsageError(fmt::format("{}: with {}: {}", request.kind, alone.empty() ? all : alone, error.constraint));
 }
 
 ParameterValues requested_parameters(const SampleRequest& request) {

@@ -60,7 +60,7 @@ PlanePath::PlanePath(const std::vector<Corner>& corners) {
       ends_[i] = arc.to;
       crests_[i] = arc.center + radius * (points[i] - arc.center).normalized();
     }
-    if (along.dot(arc_begin - last) < -shortest) throw std::logic_error("the arcs of a path overlap");
+    if (along.dot(arc_begin - last) < -shortest) throw std::domain_error("the arcs of a path overlap");
     add_line(last, arc_begin, shortest);
     last = arc_begin;
     if (arc.turn != 0) {

@@ -31,14 +31,14 @@ void add_noise(std::vector<Vec3>& positions, const Implicit& surface, const Samp
 
 }  // namespace
 
-Sample make_sample(const SampleRequest& request, Context& context) {
+Sample make_sample(const SampleRequest& request, Context& context) try {
   Sample sample;
   sample.truth.class_name = request.kind;
   sample.parameters = requested_parameters(request);
   sample.noise_rel = request.noise_rel;
   sample.seed = request.seed;
 
-  const Solid solid = requested_solid(request, sample.parameters);
+  const Solid solid = make_solid(request.kind, sample.parameters);
   sample.mesh = mesh_solid(solid, request, context);
   const auto& triangles = sample.mesh.triangles;
   std::vector<Vec3>& positions = sample.mesh.positions;
@@ -52,6 +52,8 @@ Sample make_sample(const SampleRequest& request, Context& context) {
   context.log(LogLevel::debug,
               fmt::format("{}: {} vertices, {} faces", request.kind, positions.size(), triangles.size()));
   return sample;
+} catch (const ParameterError& error) {
+  throw blaming_what_was_given(request, error);
 }
 
 }  // namespace toposcope

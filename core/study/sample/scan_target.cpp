@@ -105,12 +105,12 @@ bool reaches(const TriangleSoup& mesh, const std::vector<TruthFeature>& features
 
 }  // namespace
 
-Sample make_scan_target(const SampleRequest& request, Context& context) {
+Sample make_scan_target(const SampleRequest& request, Context& context) try {
   Sample sample;
   sample.truth.class_name = request.kind;
   sample.seed = request.seed;
   sample.parameters = requested_parameters(request);
-  const Solid solid = requested_solid(request, sample.parameters);
+  const Solid solid = make_solid(request.kind, sample.parameters);
   // The net may be coarse, as in make_sample: rays do not mind faces of uneven size.
   const double level = net_level(solid);
   const double diagonal = (solid.high - solid.low).norm();
@@ -133,6 +133,8 @@ Sample make_scan_target(const SampleRequest& request, Context& context) {
   sample.truth.features = solid.features;
   mark_parts(sample, solid, context);
   return sample;
+} catch (const ParameterError& error) {
+  throw blaming_what_was_given(request, error);
 }
 
 }  // namespace toposcope

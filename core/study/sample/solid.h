@@ -38,9 +38,9 @@ ParameterValues requested_parameters(const SampleRequest& request);
 /// Builds the exact solid of a kind. \throw UsageError  parameters that contradict each other
 Solid make_solid(const std::string& kind, const ParameterValues& parameters);
 
-/// The solid of a request. Where a constraint fails of a parameter that the request does not give, the message names
-/// the one that it gives. \throw UsageError
-Solid requested_solid(const SampleRequest& request, const ParameterValues& parameters);
+/// The error of a request. Where a constraint fails of a parameter that the request does not give, the message names
+/// what it gives: the one that makes the difference, if one alone does.
+UsageError blaming_what_was_given(const SampleRequest& request, const ParameterError& error);
 
 SampleKind cup_kind();
 Solid make_cup(const ParameterValues& parameters);

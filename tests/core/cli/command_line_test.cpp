@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "support/program.h"
+#include "support/schemas.h"
 
 namespace toposcope::test {
 namespace {
@@ -113,6 +114,16 @@ TEST(CommandLine, TextFromFilesDoesNotCommandTheTerminal) {
   }
 }
 
+/// The model asks for thickness: that a mesh has none is no fault of the model's.
+TEST(CommandLine, AFlatMeshIsToldByItsName) {
+  const TemporaryFolder folder;
+  const std::string flat = (folder / "flat.off").string();
+  write_text(flat, "OFF\n4 2 0\n0 0 0\n3 0 0\n3 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+  const Outcome outcome = toposcope("run " + flat + " --model cup");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr(flat + ": the mesh is flat: its box is 3 x 1 x 0"));
+}
+
 TEST(CommandLine, TheEndSaysWhatWasNotDone) {
   const TemporaryFolder folder;
   write_text(folder / "good.off", triangle);
@@ -125,6 +136,30 @@ TEST(CommandLine, TheEndSaysWhatWasNotDone) {
   const Outcome evaluated = toposcope("evaluate " + (folder / "set.yaml").string());
   EXPECT_EQ(evaluated.exit_code, 3) << evaluated.err;
   EXPECT_THAT(evaluated.err, HasSubstr("1 of 1 meshes was not done: bad"));
+}
+
+/// A solver that gives no answer leaves the other labelers to be compared.
+TEST(CommandLine, ALabelerThatFailsIsNotPassedOver) {
+  const TemporaryFolder folder;
+  const std::string cup = (folder / "cup.ply").string();
+  ASSERT_EQ(toposcope("sample cup --faces 2000 -o " + cup).exit_code, 0);
+  write_text(folder / "toulbar2", "#!/bin/sh\necho no\n");
+  fs::permissions(folder / "toulbar2", fs::perms::owner_all);
+  const Outcome outcome =
+      shell("PATH=" + folder.path.string() + ":$PATH " TOPOSCOPE_BUILD_DIR "/bin/toposcope compare " + cup +
+            " --model cup --labelers toulbar2,least-error --json --out " + (folder / "out").string());
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("1 of 2 labelers was not done: toulbar2 (plugin 'toulbar2'"));
+  EXPECT_THAT(outcome.out, HasSubstr("\"labeler\":\"least-error\""));
+  EXPECT_EQ(schema_faults("comparison", outcome.out), "");
+  EXPECT_TRUE(fs::exists(folder / "out/index.json"));
+}
+
+TEST(CommandLine, APluginThatIsNotThereLeavesTheOthersToBeChecked) {
+  const Outcome outcome = toposcope("plugins check nowhere.so " TOPOSCOPE_BUILD_DIR "/plugins/relations/parallel.so");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+  EXPECT_THAT(outcome.err, HasSubstr("nowhere.so: no such file"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 pass, 0 fail"));
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

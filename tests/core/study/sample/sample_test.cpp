@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sample/sample.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -183,6 +184,26 @@ TEST(Sample, EveryKindDescribesItsParameters) {
           << row.name << " has no random range";
     }
   }
+}
+
+/// Out of reach, whatever constraint fails, the message names the parameter that was given.
+TEST(SampleParameters, OutOfReachAreNamed) {
+  for (const SampleKind& kind : sample_kinds())
+    for (const OptionRow& row : kind.parameters)
+      for (const double value : {1e-9, 1e9, -1.0, 1e300}) {
+        SampleRequest request;
+        request.kind = kind.name;
+        request.faces = 1000;
+        request.parameters[row.name] = value;
+        try {
+          make(request);
+        } catch (const UsageError& error) {
+          EXPECT_THAT(error.what(), ::testing::HasSubstr(row.name)) << kind.name << " " << value;
+        }
+      }
+  const SampleRequest thick{.kind = "cup", .parameters = {{"height", 90}, {"wall", 100}}};
+  EXPECT_THAT([&] { make(thick); }, ::testing::ThrowsMessage<UsageError>(
+                                        ::testing::HasSubstr("cup: with wall = 100: bottom_thickness is 5")));
 }
 
 }  // namespace
