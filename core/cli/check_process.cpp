@@ -21,6 +21,7 @@
 #include "interruption.h"
 #include "toposcope/system/programs.h"
 #include "toposcope/system/spawn.h"
+#include "toposcope/system/temporary_folder.h"
 
 extern "C" char** environ;  // NOLINT(readability-redundant-declaration)
 
@@ -38,11 +39,7 @@ constexpr int memory_errors_exit_code = 77;
 /// A folder for all that a check leaves behind, removed with what is in it.
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_((fs::temp_directory_path() / "toposcope-check-XXXXXX").string()) {
-    if (!mkdtemp(path_.data()))
-      throw UsageError("the folder " + path_ + " cannot be made (" + std::strerror(errno) +
-                       "); set TMPDIR to a folder that may be written");
-  }
+  TemporaryFolder() : path_(temporary_folder("check")) {}
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   ~TemporaryFolder() {

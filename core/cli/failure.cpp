@@ -21,7 +21,10 @@ Failure present_failure() try { throw; } catch (const Error& error) {
 } catch (const std::length_error&) {
   return {"out of memory: more is asked for than a list can hold; give less input at once", 1};
 } catch (const std::system_error& error) {
-  return {std::string("the system refuses: ") + error.what() + "; are there too many files, threads or processes?", 1};
+  const bool exhausted = error.code() == std::errc::resource_unavailable_try_again;  // threads, processes
+  return {exhausted ? std::string("the system refuses: ") + error.what() + "; are there too many threads or processes?"
+                    : error.what(),
+          exhausted ? 1 : 2};
 } catch (const std::exception& error) {
   return {std::string("internal error: ") + error.what(), 1};
 }

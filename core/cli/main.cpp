@@ -3,6 +3,7 @@
 // The program: gathers the commands, runs the one that is asked for, turns errors into messages and exit codes.
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -58,6 +59,7 @@ void occupy_closed_streams() {
 
 int main(int argc, char** argv) {
   occupy_closed_streams();
+  signal(SIGXFSZ, SIG_IGN);  // a file beyond its limit is an error to be told
   try {
     return dispatch(argc, argv);
   } catch (...) {

@@ -124,6 +124,8 @@ int sample(const SampleOptions& options) {
   }
   if (options.kind.empty()) throw UsageError("sample: name a kind of object; toposcope sample --list shows them");
   if (options.out.empty()) throw UsageError("sample: where to? give the mesh to write with -o");
+  if (!can_write_mesh(options.out))
+    throw UsageError("-o " + options.out.string() + ": write a mesh as .ply, .obj, .stl or .off");
   const Sample made = options.scan ? scanned(options) : exact(options);
   const fs::path truth = fs::path(options.out).replace_extension(".truth.json");
   write_mesh(options.out, made.mesh.positions, made.mesh.triangles);

@@ -165,7 +165,7 @@ std::string write_mesh(const std::filesystem::path& path, std::span<const Vec3> 
   } else if (extension == ".off") {
     write_file(path, off(positions, triangles));
   } else {
-    throw MeshError(name + ": cannot write a mesh as '" + extension + "'; use .ply, .obj, .stl or .off");
+    throw UsageError(name + ": cannot write a mesh as '" + extension + "'; use .ply, .obj, .stl or .off");
   }
   return "";
 }

@@ -19,8 +19,10 @@ using namespace toposcope::normalise;
 constexpr Index most_faces = 100000000;
 // Of a mesh at work, with its samples.
 constexpr double bytes_per_face = 400;
-// Times the faces that there are and that are wanted. Long faces of CAD need four times as many, before collapses.
-constexpr double most_at_work = 16;
+// Times the faces that there are and that are wanted. Long faces of CAD need a dozen times as many, before collapses.
+constexpr double most_at_work = 64;
+// Length over width from which a face is a needle.
+constexpr double needle = 4;
 // Rounds that may be added while there are too many faces.
 constexpr int more_rounds = 20;
 // Of a mesh whose edges are longer than the surface has room for.
@@ -112,13 +114,17 @@ class Normalise final : public MeshFilter {
     return wanted < most_faces ? static_cast<Index>(std::round(wanted)) : most_faces;
   }
 
-  // Splits of long edges come before all collapses: a face needs as many as its area or its longest edge asks for.
+  /// Splits of long edges come before all collapses. A face needs as many as its area asks for. A needle needs more:
+  /// its longest edge cut in the middle leaves one half and two of its length, and so three for each halving.
   static double faces_at_work(const MeshView& mesh, double edge) {
     double faces = 0;
     for (const Triangle& t : mesh.triangles) {
       const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
       const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-      faces += 1 + std::max(2 / std::sqrt(3.0) * (b - a).cross(c - a).norm() / (edge * edge), longest / edge);
+      const double area = (b - a).cross(c - a).norm() / 2;
+      const double width = std::max(edge, 2 * area / longest);  // down to it a needle is cut as one
+      const double needles = longest > needle * width ? std::pow(longest / width, std::log2(3.0)) : 1;
+      faces += std::max(1 + 4 / std::sqrt(3.0) * area / (edge * edge), needles * (width / edge) * (width / edge));
     }
     return faces;
   }

@@ -16,18 +16,13 @@
 #include <thread>
 
 #include "toposcope/system/spawn.h"
+#include "toposcope/system/temporary_folder.h"
 
 extern "C" char** environ;  // NOLINT(readability-redundant-declaration)
 
 namespace toposcope::toulbar2 {
 
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (fs::temp_directory_path() / "toposcope-toulbar2-XXXXXX").string();
-  if (!mkdtemp(pattern.data()))
-    throw std::runtime_error("the folder " + pattern + " cannot be made (" + std::strerror(errno) +
-                             "); set TMPDIR to a folder that may be written");
-  path_ = pattern;
-}
+TemporaryFolder::TemporaryFolder() : path_(temporary_folder("toulbar2")) {}
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;

@@ -32,6 +32,7 @@ TEST(CommandLine, WhatIsWrongIsTold) {
       {"run x.ply --model cup --seed -1", "whole number from 0 to 18446744073709551615"},
       {"run x.ply --model cup --seed 18446744073709551616", "whole number from 0 to"},
       {"sample cup -o x.ply --faces 1e3", "whole number"},
+      {"sample cup -o x.txt", "-o x.txt: write a mesh as .ply"},
       {"label x --time-limit nan", "expected a number of at least 0"},
       {"run x.ply --model cup --seed ''", "--seed is empty"},
       {"run x.ply --model cup --locked ''", "--locked is empty"},
@@ -92,6 +93,23 @@ TEST(CommandLine, AnOutputThatCannotBeWrittenIsTold) {
   const std::string copy = (folder / "copy.off").string();
   toposcope("prepare " + (folder / "t.off").string() + " -o " + copy + " >&-");
   EXPECT_THAT(read_text(copy), Not(HasSubstr("vertices,")));
+}
+
+TEST(CommandLine, AFolderForTemporaryFilesThatIsNotThereIsNamed) {
+  const Outcome outcome = shell("TMPDIR=/not/there " TOPOSCOPE_BUILD_DIR
+                                "/bin/toposcope plugins check " TOPOSCOPE_BUILD_DIR "/plugins/relations/parallel.so");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("/not/there cannot be made; set TMPDIR"));
+}
+
+TEST(CommandLine, AFileBeyondItsLimitIsTold) {
+  const TemporaryFolder folder;
+  const std::string mesh = (folder / "big.ply").string();
+  const Outcome outcome =
+      shell("ulimit -f 8; " TOPOSCOPE_BUILD_DIR "/bin/toposcope sample cup --faces 5000 -o " + mesh);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("big.ply: cannot be written"));
+  EXPECT_TRUE(fs::is_empty(folder.path));
 }
 
 TEST(CommandLine, TextFromFilesDoesNotCommandTheTerminal) {

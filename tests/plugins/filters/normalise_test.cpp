@@ -261,7 +261,7 @@ TEST(Normalise, ANeedleTakesWorkInProportion) {
   Listening listening;
   const TriangleSoup result = normalised(needle, 500, {}, listening.context).mesh;
   EXPECT_TRUE(is_manifold(result));
-  EXPECT_LT(result.triangles.size(), 16 * (500 + needle.triangles.size()));
+  EXPECT_LT(result.triangles.size(), 64 * (500 + needle.triangles.size()));
   EXPECT_ANY_THROW(filtered("normalise", needle, {{"edge", "1e-9"}}));
 }
 

@@ -61,7 +61,7 @@ TEST(WriteMesh, RefusesWhatItCannotWrite) {
   const ScratchFolder folder;
   const std::vector<Vec3> positions = {{0, 0, 0}, {1e60, 0, 0}, {0, 1, 0}};
   const std::vector<Triangle> triangles = {{0, 1, 2}}, wrong = {{0, 1, 3}};
-  EXPECT_THROW(write_mesh(folder.path() / "mesh.step", positions, triangles), MeshError);
+  EXPECT_THROW(write_mesh(folder.path() / "mesh.step", positions, triangles), UsageError);
   EXPECT_THROW(write_mesh(folder.path() / "mesh.stl", positions, triangles), MeshError) << "beyond single precision";
   EXPECT_THROW(write_mesh(folder.path() / "mesh.ply", positions, wrong), MeshError);
   EXPECT_THROW(write_mesh(folder.path() / "none" / "mesh.ply", positions, triangles), UsageError);
