@@ -150,6 +150,17 @@ bool settled(const RepairReport& report) {
          0;
 }
 
+RepairReport without_changes(RepairReport report) {
+  for (const auto count : change_counts) report.*count = 0;
+  return report;
+}
+
+struct Surface {
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+  bool is(const TriangleSoup& soup) const { return soup.positions == positions && soup.triangles == triangles; }
+};
+
 /// Two passes as one. What the mesh is like, the later one says.
 RepairReport sum_of(const RepairReport& first, RepairReport later) {
   for (const auto count : change_counts) later.*count += first.*count;
@@ -161,20 +172,26 @@ RepairReport sum_of(const RepairReport& first, RepairReport later) {
 
 RepairReport repair(TriangleSoup& soup, const std::string& name) {
   constexpr int most_passes = 10;  // random soups need six
+  const Surface given{soup.positions, soup.triangles};
   RepairReport report;
   for (int pass = 0; pass < most_passes; ++pass) {
-    const std::vector<Vec3> positions = soup.positions;
-    const std::vector<Triangle> triangles = soup.triangles;
-    RepairReport more = repair_once(soup, name);
-    const bool done = settled(more);
-    const bool same = soup.positions == positions && soup.triangles == triangles;
+    const Surface before{soup.positions, soup.triangles};
+    const RepairReport more = repair_once(soup, name);
+    const bool same = before.is(soup);
     // What was joined and taken apart again, as it was, is no change.
-    if (same)
-      for (const auto count : change_counts) more.*count = 0;
-    report = sum_of(report, more);
-    if (done || same) break;
+    report = sum_of(report, same ? without_changes(more) : more);
+    if (same || settled(more)) return report;
   }
-  return report;
+  // One soup in thousands goes round in circles: the least of the round stands for all of it.
+  TriangleSoup least = soup;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const RepairReport more = repair_once(soup, name);
+    if (soup.triangles > least.triangles) continue;
+    least = soup;
+    report = sum_of(report, without_changes(more));
+  }
+  soup = std::move(least);
+  return given.is(soup) ? without_changes(report) : report;
 }
 
 }  // namespace toposcope
