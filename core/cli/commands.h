@@ -22,6 +22,11 @@ void add_report(CLI::App& app, int& code);
 void add_run(CLI::App& app, int& code);
 void add_sample(CLI::App& app, int& code);
 
+/// Below `model`.
+void add_model_learn(CLI::App& model, int& code);
+void add_model_new(CLI::App& model, int& code);
+void add_model_probe(CLI::App& model, int& code);
+
 /// Below `plugins`.
 void add_plugins_check(CLI::App& plugins, int& code);
 void add_plugins_new(CLI::App& plugins, int& code);

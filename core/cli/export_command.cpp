@@ -24,7 +24,8 @@ std::pair<std::string, std::string> exported(const LabelledMesh& labelled, const
 }
 
 int export_results(const ExportOptions& options) {
-  return for_each_result(options.results, options.mesh, [&](const fs::path& folder) {
+  return for_each_result(options.results, options.mesh, [&](const fs::path& given) {
+    const fs::path folder = result_folder(given);
     const LabelledMesh labelled = read_labelled_mesh(folder / "result.json", options.mesh);
     for (const std::string& format : options.formats) {
       const auto [name, content] = exported(labelled, format);

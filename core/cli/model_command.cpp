@@ -38,7 +38,7 @@ int model_show(const ModelOptions& options) {
 }  // namespace
 
 void add_model(CLI::App& app, int& code) {
-  CLI::App& command = *app.add_subcommand("model", "check or show a model");
+  CLI::App& command = *app.add_subcommand("model", "begin, check, show, probe or teach a model");
   command.require_subcommand(1);
   CLI::App& check = *command.add_subcommand("check", "report all errors of a model file");
   CLI::App& show = *command.add_subcommand("show", "print a model's networks, features and relationships");
@@ -50,6 +50,9 @@ void add_model(CLI::App& app, int& code) {
   show.add_option("--format", options->format, "text or dot (Graphviz)")
       ->check(CLI::IsMember({"text", "dot"}))
       ->capture_default_str();
+  add_model_new(command, code);
+  add_model_learn(command, code);
+  add_model_probe(command, code);
   check.callback([options, &code] { code = model_check(*options); });
   show.callback([options, &code] { code = model_show(*options); });
 }

@@ -18,8 +18,8 @@ namespace toposcope::cli {
 namespace {
 
 struct RenderOptions : ResultOptions {
-  fs::path out;  ///< empty: beside the result
-  std::vector<std::string> stages = {"found"};
+  fs::path out;                     ///< empty: beside the result
+  std::vector<std::string> stages;  ///< empty: what was found; of a mesh alone the mesh
   std::string size = "1200x900", view = "auto", up = "auto", background = "white";
   unsigned threads = 0;
 };
@@ -88,6 +88,17 @@ fs::path target_of(const fs::path& out, const fs::path& folder, const std::strin
   return alone ? out : fs::path(out).replace_filename(out.stem().string() + "-" + name + ".png");
 }
 
+/// The stages asked for, or the one that one would look at.
+std::vector<std::string> stages_of(const RenderOptions& options, const fs::path& given) {
+  const bool alone = is_mesh_file(given);
+  if (options.stages.empty()) return {alone ? "mesh" : "found"};
+  for (const std::string& stage : options.stages)
+    if (alone && stage != "mesh" && stage != "marks" && stage != "all")
+      throw UsageError(given.string() + ": a mesh has no stage '" + stage +
+                       "'; label it by toposcope run --out, or ask for mesh or marks");
+  return options.stages;
+}
+
 int render(const RenderOptions& options) {
   PictureStyle style;
   set_size(options.size, style);
@@ -100,14 +111,17 @@ int render(const RenderOptions& options) {
     throw UsageError("-o names the pictures of one result, and " + std::to_string(options.results.size()) +
                      " are given; without it pictures go to the results' folders");
   RunContext context({.threads = options.threads});
-  return for_each_result(options.results, options.mesh, [&](const fs::path& folder) {
-    const Scene scene = stored_scene(folder, options.mesh);
+  return for_each_result(options.results, options.mesh, [&](const fs::path& given) {
+    const bool alone = is_mesh_file(given);
+    const fs::path folder = alone ? given.parent_path() : result_folder(given);
+    const Scene scene = alone ? mesh_scene(given) : stored_scene(folder, options.mesh);
     std::string absent;
-    const std::vector<Wanted> wanted = pictures(scene, options.stages, absent);
+    const std::vector<Wanted> wanted = pictures(scene, stages_of(options, given), absent);
     const Stand stand = options.up == "auto" ? stand_of(scene) : stand_from(options.up);
     const View view = options.view == "auto" ? best_view(scene, stand) : view_from(options.view);
     for (const Wanted& each : wanted) {
-      const fs::path file = target_of(options.out, folder, each.name, wanted.size() == 1);
+      const std::string name = (alone ? given.stem().string() + "-" : "") + each.name;
+      const fs::path file = target_of(options.out, folder, name, wanted.size() == 1);
       write_file(file, to_png(picture_of(scene, each.stage, each.feature, view, stand, style, context)));
       if (!options.quiet) say("{}\n", file.string());
     }
@@ -121,12 +135,14 @@ int render(const RenderOptions& options) {
 }  // namespace
 
 void add_render(CLI::App& app, int& code) {
-  CLI::App& command = *app.add_subcommand("render", "pictures of results as PNG files, without a display");
+  CLI::App& command =
+      *app.add_subcommand("render", "pictures of results, or of meshes alone, as PNG files, without a display");
   const auto options = std::make_shared<RenderOptions>();
-  command.add_option("--stage", options->stages, "mesh, worksets, candidates, found, marks; several by commas; all")
+  command
+      .add_option("--stage", options->stages,
+                  "mesh, worksets, candidates, found (when left out), marks; several by commas; all")
       ->delimiter(',')
-      ->allow_extra_args(false)
-      ->capture_default_str();
+      ->allow_extra_args(false);
   command
       .add_option("-o,--out", options->out,
                   "the picture; of several pictures the beginning of their names, or a folder")

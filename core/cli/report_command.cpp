@@ -18,7 +18,8 @@ int report(const ResultOptions& options) {
   const fs::path page_file = find_page();
   if (page_file.empty()) throw UsageError(page_missing());
   const std::string page = read_text_file(page_file, "page");
-  return for_each_result(options.results, options.mesh, [&](const fs::path& folder) {
+  return for_each_result(options.results, options.mesh, [&](const fs::path& given) {
+    const fs::path folder = result_folder(given);
     const Scene scene = stored_scene(folder, options.mesh);
     const fs::path file = folder / "report.html";
     write_file(file, page_with(page, to_json(scene, program_name()), page_file.string()));

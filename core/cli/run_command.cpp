@@ -15,6 +15,7 @@
 #include "output_folder.h"
 #include "report_files.h"
 #include "resources.h"
+#include "result/feature_table.h"
 #include "result/result.h"
 #include "scene/scene.h"
 #include "session.h"
@@ -27,6 +28,8 @@ struct RunOptions : CommonOptions {
   std::string model;
   fs::path out;
   fs::path save_problem;  ///< empty: not written
+  fs::path measures;      ///< likewise
+  fs::path features;      ///< likewise
   bool report = true;
   fs::path lock, locked;  ///< write a lock file; refuse a run that differs from one
 };
@@ -77,6 +80,9 @@ int run(const RunOptions& options) {
   if (!options.save_problem.empty()) require_problem_extension(options.save_problem);
   PipelineSession session(options);
   const Model model = read_model(find_resource("models", options.model), &session.host().catalog());
+  if (!options.measures.empty() && model.measures.empty())
+    throw UsageError("--measures " + options.measures.string() + ": model '" + model.name +
+                     "' has no measures; add some under 'measures:', as in height: distance(rim, bottom)");
   lock_or_compare(options, session, model);
   const Stations stations = session.stations(model);
 
@@ -84,7 +90,9 @@ int run(const RunOptions& options) {
   if (!options.out.empty() && options.report)
     page.emplace("report.html", "; --no-report says nothing of it", session.context());
 
-  return for_each_mesh(options.meshes, session, [&](const fs::path& path) {
+  std::string measures = measures_csv_head(model);
+  FeatureTable features;
+  const int code = for_each_mesh(options.meshes, session, [&](const fs::path& path) {
     const auto start = std::chrono::steady_clock::now();
     const RepairedMesh input = session.read(path);
     const double read_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -114,7 +122,12 @@ int run(const RunOptions& options) {
           (folder / "result.json").string(),
           !page || !page->there() ? "" : "  to look at:    " + (folder / "report.html").string() + "\n");
     flush_output();
+    measures += measures_csv_row(result);
+    if (!options.features.empty()) features.add(result);
   });
+  if (!options.measures.empty()) write_file(options.measures, measures);
+  if (!options.features.empty()) write_file(options.features, features.csv());
+  return code;
 }
 
 }  // namespace
@@ -128,6 +141,10 @@ void add_run(CLI::App& app, int& code) {
       ->type_name("DIR");
   command.add_flag("!--no-report", options->report, "do not write report.html");
   command.add_option("--save-problem", options->save_problem, "write the labelling problem: .json, .cfn, .wcsp, .uai")
+      ->type_name("FILE");
+  command.add_option("--measures", options->measures, "write the model's measures as CSV, a row for each mesh")
+      ->type_name("FILE");
+  command.add_option("--features", options->features, "write the features found as CSV, a row for each")
       ->type_name("FILE");
   CLI::Option* lock =
       command.add_option("--lock", options->lock, "write what decides this run to FILE")->type_name("FILE");

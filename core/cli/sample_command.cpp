@@ -32,6 +32,7 @@ struct SampleOptions : CommonOptions {
   int smoothing = 3;
   std::string preset;
   bool random = false;
+  const CLI::Option* faces_option = nullptr;
 };
 
 void list_kinds() {
@@ -114,7 +115,12 @@ Sample exact(const SampleOptions& options) {
   settings.threads = options.threads;
   settings.seed = options.seed;
   RunContext context(settings);
-  return make_sample(request_of(options), context);
+  Sample made = make_sample(request_of(options), context);
+  if (made.tessellated && options.faces_option->count() > 0)
+    throw UsageError(
+        fmt::format("--faces {}: a {} has as many faces as its 'segments' ask for; --set segments=N, or --scan",
+                    options.faces, options.kind));
+  return made;
 }
 
 int sample(const SampleOptions& options) {
@@ -144,7 +150,10 @@ void add_sample(CLI::App& app, int& code) {
   command.add_option("kind", options->kind, "cup, tee, ...; see --list");
   command.add_flag("--list", options->list, "list the kinds and their parameters");
   command.add_option("-o,--out", options->out, "mesh to write; its truth goes beside it")->type_name("MESH");
-  command.add_option("--faces", options->faces, "number of faces")->check(whole_number(0, most))->capture_default_str();
+  options->faces_option =
+      command.add_option("--faces", options->faces, "number of faces; of plate and flange of their scans")
+          ->check(whole_number(0, most))
+          ->capture_default_str();
   command.add_option("--noise", options->noise, "sd of the noise along the normal, part of the diagonal")
       ->capture_default_str();
   command.add_option("--set", options->overrides, "one parameter: name=value")

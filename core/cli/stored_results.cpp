@@ -34,15 +34,32 @@ Scene stored_scene(const fs::path& folder, const fs::path& mesh) {
   return scene_of(labelled, truth ? &*truth : nullptr);
 }
 
+bool is_mesh_file(const fs::path& given) {
+  std::error_code ignored;
+  return fs::is_regular_file(given, ignored) && given.extension() != ".json" && given.extension() != ".html" &&
+         given.filename() != "labels.ply";
+}
+
+Scene mesh_scene(const fs::path& file) {
+  const Mesh mesh = read_repaired_mesh(file).mesh;
+  const fs::path truth_file = truth_beside(file);
+  std::optional<Truth> truth;
+  if (!truth_file.empty()) truth = read_truth(truth_file);
+  Scene scene =
+      make_scene(mesh, std::vector<std::uint8_t>(mesh.view().face_count(), 0), "", {}, {}, truth ? &*truth : nullptr);
+  scene.title = file.filename().string();
+  return scene;
+}
+
 int for_each_result(const std::vector<fs::path>& results, const fs::path& mesh,
-                    const std::function<void(const fs::path& folder)>& body) {
+                    const std::function<void(const fs::path& given)>& body) {
   if (!mesh.empty() && results.size() > 1)
     throw UsageError("--mesh names the mesh of one result, and " + std::to_string(results.size()) +
                      " are given; take them one by one");
   int code = 0;
   std::vector<std::string> failed;
   for (const fs::path& given : results) try {
-      body(result_folder(given));
+      body(given);
     } catch (...) {
       const Failure failure = present_failure();
       complain(failure.message);

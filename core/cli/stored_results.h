@@ -18,10 +18,16 @@ fs::path result_folder(const fs::path& given);
 /// \param mesh  where the mesh is now; empty: where the result says
 Scene stored_scene(const fs::path& folder, const fs::path& mesh);
 
-/// Runs `body` for the folder of each result: one that fails is reported on stderr and the others are still done.
+/// Whether a mesh is given, and no result. labels.ply, which run writes, stands for its result.
+bool is_mesh_file(const fs::path& given);
+
+/// A mesh alone, and the marks of a truth file beside it.
+Scene mesh_scene(const fs::path& file);
+
+/// Runs `body` for each result, as it was given: one that fails is reported on stderr and the others are still done.
 /// \param mesh  --mesh, which only one result can have
 /// \return the exit code: that of the first failure, 0 if there was none
 int for_each_result(const std::vector<fs::path>& results, const fs::path& mesh,
-                    const std::function<void(const fs::path& folder)>& body);
+                    const std::function<void(const fs::path& given)>& body);
 
 }  // namespace toposcope::cli

@@ -130,6 +130,11 @@ export function scene(): SceneDocument {
         { name: 'r2', type: 'perpendicular', features: ['handle', 'rim'], tested: false, satisfied: false, why: "'handle' is missing" },
         { name: 'r3', type: 'reflective-symmetry', features: ['rim', 'bottom'], tested: true, residual: 3, tolerance: 2, unit: 'length', satisfied: false, probability: 0.2 },
       ],
+      measures: {
+        height: { expression: 'distance(rim, bottom)', unit: 'length', value: 71.25, sd: 0.08 },
+        reach: { expression: 'distance(rim, handle)', unit: 'length', value: null, why: "'handle' is missing" },
+      },
+      measures_covariance: { of: ['height'], covariance: [[0.0064]] },
       alternatives: [{ probability: 0.03, cost: -4, candidates: { rim: 2, bottom: 1, handle: 0 } }],
       working_sets: 5,
       candidates: { rim: kept(2), bottom: kept(1), handle: kept(1) },

@@ -238,6 +238,15 @@ test('all of it by keyboard', async () => {
   await closed(opened);
 });
 
+test('measures stand with their deviations, or say why they have none', async () => {
+  const { page, faults } = await open(browser, scenePage);
+  await idle(page);
+  const rows = await page.$$eval('.measured', (all) => all.map((each) => [each.getAttribute('title'), each.textContent]));
+  assert.deepEqual(rows, [['distance(rim, bottom)', 'height71.25 ± 0.08'], ['distance(rim, handle)', "reach'handle' is missing"]]);
+  assert.deepEqual(faults, []);
+  await page.context().close();
+});
+
 test('result.json and a picture are handed out', async () => {
   const opened = await open(browser, scenePage), { page } = opened;
   await idle(page);

@@ -44,7 +44,10 @@ std::vector<LockedPlugin> locked_plugins(const PipelineManifest& pipeline, const
   };
   for (const StationPlugin& filter : pipeline.filters) add(PluginKind::filters, filter.plugin, filter.options);
   add(PluginKind::worksets, pipeline.worksets.plugin, pipeline.worksets.options);
-  for (const ModelFeature& feature : model.features) add_once(PluginKind::shapes, feature.shape.plugin);
+  for (const ModelFeature& feature : model.features) {
+    add_once(PluginKind::shapes, feature.shape.plugin);
+    for (const ShapeSpec& other : feature.other_shapes) add_once(PluginKind::shapes, other.plugin);
+  }
   for (const Relationship& relationship : model.relationships) add_once(PluginKind::relations, relationship.plugin);
   add(PluginKind::labelers, pipeline.labeler.plugin, pipeline.labeler.options);
   if (pipeline.marginals) add(PluginKind::labelers, pipeline.marginals->plugin, pipeline.marginals->options);

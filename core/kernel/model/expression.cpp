@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -22,29 +21,11 @@ constexpr double flat_box = 1e-12;
 }  // namespace
 
 double Expression::evaluate(const ExpressionBoxes& boxes) const {
-  std::array<double, Program::max_stack> stack;
-  std::size_t top = 0;
-  for (const Instruction& step : program_->code) {
-    switch (step.operation) {
-      case Operation::constant:
-        stack[top++] = step.value;
-        continue;
-      case Operation::object_side:
-        stack[top++] = boxes.object.sides[step.side];
-        continue;
-      case Operation::workset_side:
-        stack[top++] = boxes.worksets.sides[step.side];
-        continue;
-      case Operation::negate:
-        stack[top - 1] = -stack[top - 1];
-        continue;
-      default:
-        break;
-    }
-    const double right = stack[--top];
-    stack[top - 1] = apply(step.operation, stack[top - 1], right);
-  }
-  return stack[0];
+  return run<double>(program_->code, [&](const Instruction& step) {
+    if (step.operation == Operation::object_side) return boxes.object.sides[step.index];
+    if (step.operation == Operation::workset_side) return boxes.worksets.sides[step.index];
+    return step.value;
+  });
 }
 
 int Expression::dimension() const {
@@ -100,6 +81,12 @@ std::string dimension_in_words(int dimension) {
     default:
       return "a length to the power " + std::to_string(dimension);
   }
+}
+
+std::string quantity_in_words(int dimension, int angle) {
+  if (angle == 0) return dimension_in_words(dimension);
+  const std::string power = angle == 1 ? "an angle" : "an angle to the power " + std::to_string(angle);
+  return dimension == 0 ? power : dimension_in_words(dimension) + " times " + power;
 }
 
 double positive_on_mesh(const Expression& expression, const ExpressionBoxes& boxes, const SourceLocation& where,

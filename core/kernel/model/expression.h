@@ -59,6 +59,8 @@ inline constexpr int any_dimension = -1000;
 
 /// The kind of quantity in words: "a number", "a length", "an area".
 std::string dimension_in_words(int dimension);
+/// The same where angles occur: "an angle". \param angle  power of degrees
+std::string quantity_in_words(int dimension, int angle);
 
 /// \param where      of the first character of `text`
 /// \param dimension  of the measure: bounds of another dimension are an error

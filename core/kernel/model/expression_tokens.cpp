@@ -55,7 +55,7 @@ std::vector<ExpressionToken> cut_expression(std::string_view text, const SourceL
       while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
     } else if ((first == '<' || first == '>') && second == '=') {
       ++end;
-    } else if (std::string_view("+-*/(),.<>").find(first) == std::string_view::npos) {
+    } else if (std::string_view("+-*/(),.<>[]").find(first) == std::string_view::npos) {
       throw UsageError(place_in(where, at).str() + ": unexpected character '" + std::string(character_at(text, at)) +
                        "'; an expression is made of numbers, + - * / ( ), min, max, pi, bb(O).a and bb(w).a");
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/expression.h"
+#include "model/measure_expression.h"
 #include "model/source_location.h"
 #include "toposcope/types.h"
 
@@ -59,7 +60,8 @@ struct ModelFeature {
   /// The same for the groups that a second look tries, of sets that no other feature has taken; empty: there is none.
   std::vector<std::string> second_look;
   ShapeSpec shape;
-  std::vector<Range> ranges;
+  std::vector<ShapeSpec> other_shapes;  ///< alternatives to it: of `shape: [cylinder, cone]` all but the first
+  std::vector<Range> ranges;            ///< of the measures that a shape has: what one lacks does not bound it
   std::optional<Expression> max_fit_error;  ///< t_err of 3.4.1, a length
   double detectability = 1;                 ///< 0 to 1
   SourceLocation where;
@@ -70,6 +72,7 @@ struct Relationship {
   std::string plugin;           ///< relation type = plugin id
   std::vector<Index> features;  ///< by index into WorkingModel::features
   std::vector<std::pair<std::string, Expression>> arguments;
+  std::vector<std::pair<std::string, std::string>> words;  ///< arguments that are texts, checked
   /// In the residual's unit (deg or length), over bb(O); without it the relation's own option decides.
   std::optional<Expression> tolerance;
   SourceLocation where;
@@ -91,6 +94,7 @@ struct Model {
   std::vector<ModelFeature> features;
   std::vector<Relationship> relationships;
   std::vector<ClassRule> classes;  ///< empty for most models
+  std::vector<ModelMeasure> measures;
 };
 
 }  // namespace toposcope

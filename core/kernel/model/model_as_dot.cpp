@@ -113,7 +113,7 @@ class DotWriter {
     begin_cluster("working", "Working model: features and relationships", "#f4f1fa");
     for (Index f = 0; f < model_.features.size(); ++f) {
       const ModelFeature& feature = model_.features[f];
-      std::string label = feature.name + "\n" + shape_in_words(feature.shape) + " on " + worksets_in_words(feature);
+      std::string label = feature.name + "\n" + shapes_in_words(feature) + " on " + worksets_in_words(feature);
       for (const Range& range : feature.ranges) label += "\n" + range_in_words(range);
       if (feature.max_fit_error) label += "\nfit error < " + feature.max_fit_error->text();
       label += "\ndetectability " + number_in_words(feature.detectability);

@@ -43,8 +43,8 @@ void write_object(const AbstractModel& model, Index object, std::size_t width, s
 
 void write_feature(const ModelFeature& feature, std::size_t width, std::string& out) {
   const std::string indent(2 + width + 2, ' ');
-  out += "  " + padded(feature.name, width) + "  " + shape_in_words(feature.shape) + " on " +
-         worksets_in_words(feature) + ", detectability " + number_in_words(feature.detectability);
+  out += "  " + padded(feature.name, width) + "  " + shapes_in_words(feature) + " on " + worksets_in_words(feature) +
+         ", detectability " + number_in_words(feature.detectability);
   if (!feature.realises.empty()) out += ", realises " + feature.realises;
   out += "\n";
   for (const Range& range : feature.ranges) out += indent + range_in_words(range) + "\n";
@@ -86,6 +86,13 @@ std::string model_as_text(const Model& model) {
   for (const ClassRule& rule : model.classes) {
     out += "  " + padded(rule.name, longest_name(model.classes)) + " ";
     for (const Index relationship : rule.relationships) out += " " + model.relationships[relationship].name;
+    out += "\n";
+  }
+
+  if (!model.measures.empty()) out += "\nMeasures\n";
+  for (const ModelMeasure& measure : model.measures) {
+    out += "  " + padded(measure.name, longest_name(model.measures)) + "  " + measure.expression.text;
+    if (const std::string unit = measure.expression.unit(); !unit.empty()) out += " (" + unit + ")";
     out += "\n";
   }
   return out;

@@ -61,6 +61,8 @@ std::vector<Relationship> read_relationships(const YAML::Node& root, const std::
                                              const ModelReading& reading);
 std::vector<ClassRule> read_classes(const YAML::Node& root, const std::vector<Relationship>& relationships,
                                     const ModelReading& reading);
+std::vector<ModelMeasure> read_measures(const YAML::Node& root, const std::vector<ModelFeature>& features,
+                                        const ModelReading& reading);
 
 /// "takes 1", "takes 2 or more", "takes 1 to 3"; \param max  0: no upper bound
 std::string arity_in_words(std::uint32_t min, std::uint32_t max);

@@ -17,14 +17,27 @@ std::string shape_in_words(const ShapeSpec& shape) {
   return arguments.empty() ? shape.plugin : shape.plugin + " (" + arguments + ")";
 }
 
+std::string shapes_in_words(const ModelFeature& feature) {
+  std::string words = shape_in_words(feature.shape);
+  for (const ShapeSpec& other : feature.other_shapes) words += " or " + shape_in_words(other);
+  return words;
+}
+
 std::string range_in_words(const Range& range) {
   return (range.low ? range.low->text() + " < " : "") + range.measure + (range.high ? " < " + range.high->text() : "");
+}
+
+std::string bound_in_words(const ModelFeature& feature, Index bound) {
+  if (bound / 2 >= feature.ranges.size()) return "fit error < " + feature.max_fit_error->text();
+  const Range& range = feature.ranges[bound / 2];
+  return bound % 2 == 0 ? range.low->text() + " < " + range.measure : range.measure + " < " + range.high->text();
 }
 
 std::string arguments_in_words(const Relationship& relationship) {
   std::string words;
   for (const auto& [name, value] : relationship.arguments)
     words += (words.empty() ? "" : ", ") + name + " " + value.text();
+  for (const auto& [name, value] : relationship.words) words += (words.empty() ? "" : ", ") + name + " " + value;
   if (relationship.tolerance) words += (words.empty() ? "" : ", ") + ("tolerance " + relationship.tolerance->text());
   return words;
 }

@@ -27,10 +27,11 @@ class FeatureReader {
     read_object(node["realises"], feature);
     read_worksets(node["worksets"], feature.worksets);
     if (node["second_look"]) read_worksets(node["second_look"], feature.second_look);
-    const PluginManifest* shape = read_shape(node["shape"], feature);
-    if (shape) check_dimension(node["realises"], *shape, feature);
+    const std::vector<const PluginManifest*> shapes = read_shapes(node["shape"], feature);
+    for (const PluginManifest* shape : shapes)
+      if (shape) check_dimension(node["realises"], *shape, feature);
     if (node["ranges"])
-      for (const auto& range : node["ranges"]) read_range(range.first, range.second, shape, feature);
+      for (const auto& range : node["ranges"]) read_range(range.first, range.second, shapes, feature);
     if (const YAML::Node error = node["max_fit_error"]) read_max_fit_error(error, feature);
     if (const YAML::Node detectability = node["detectability"]) {
       const std::string& text = detectability.Scalar();  // the schema has seen a number
@@ -70,27 +71,40 @@ class FeatureReader {
     }
   }
 
+  /// One shape, or a list of alternatives. \return manifests; null of one that is unknown
+  std::vector<const PluginManifest*> read_shapes(const YAML::Node& node, ModelFeature& feature) {
+    if (!node.IsSequence()) return {read_shape(node, feature, feature.shape)};
+    std::vector<const PluginManifest*> shapes;
+    for (std::size_t k = 0; k < node.size(); ++k)
+      shapes.push_back(read_shape(node[k], feature, k == 0 ? feature.shape : feature.other_shapes.emplace_back()));
+    for (std::size_t k = 0; k < shapes.size(); ++k)
+      for (std::size_t other = 0; other < k; ++other)
+        if (shapes[k] && shapes[k] == shapes[other])
+          reading_.add(node[k], "feature '" + feature.name + "' names shape '" + shapes[k]->id +
+                                    "' twice; alternatives are different shapes, remove one");
+    return shapes;
+  }
+
   /// The shape's manifest; null when unknown.
-  const PluginManifest* read_shape(const YAML::Node& node, ModelFeature& feature) {
+  const PluginManifest* read_shape(const YAML::Node& node, const ModelFeature& feature, ShapeSpec& spec) {
     const YAML::Node id = node.IsMap() ? node["plugin"] : node;
-    feature.shape.plugin = id.Scalar();
-    feature.shape.where = reading_.at(id);
-    if (const std::string segments = segments_of_short_form(feature.shape.plugin); !segments.empty()) {
-      feature.shape.plugin = "line-group";
-      feature.shape.arguments.emplace_back("segments", segments);
+    spec.plugin = id.Scalar();
+    spec.where = reading_.at(id);
+    if (const std::string segments = segments_of_short_form(spec.plugin); !segments.empty()) {
+      spec.plugin = "line-group";
+      spec.arguments.emplace_back("segments", segments);
     }
     const PluginManifest* shape = nullptr;
     if (reading_.catalog)
-      reading_.attempt(id, [&] {
-        shape = &reading_.catalog->require(PluginKind::shapes, feature.shape.plugin, reading_.at(id).str());
-      });
+      reading_.attempt(
+          id, [&] { shape = &reading_.catalog->require(PluginKind::shapes, spec.plugin, reading_.at(id).str()); });
     bool sound = shape != nullptr;
-    const std::string owner = "shape '" + feature.shape.plugin + "'";
+    const std::string owner = "shape '" + spec.plugin + "'";
     if (node.IsMap())
       for (const auto& argument : node) {
         const std::string& name = argument.first.Scalar();
         if (name == "plugin") continue;
-        feature.shape.arguments.emplace_back(name, argument.second.Scalar());
+        spec.arguments.emplace_back(name, argument.second.Scalar());
         // One by one, so that each error names its own place.
         if (shape)
           sound &= reading_.attempt(argument.second, [&] {
@@ -99,9 +113,7 @@ class FeatureReader {
           });
       }
     if (sound)
-      reading_.attempt(id, [&] {
-        check_options(shape->arguments, feature.shape.arguments, feature.shape.where.str() + ": " + owner);
-      });
+      reading_.attempt(id, [&] { check_options(shape->arguments, spec.arguments, spec.where.str() + ": " + owner); });
     for (const std::vector<std::string>* types : {&feature.worksets, &feature.second_look})
       if (shape && !types->empty() && !arity_allows(shape->min_arity, shape->max_arity, types->size()))
         reading_.add(id, "feature '" + feature.name + "' gives " + owner + " " + std::to_string(types->size()) +
@@ -119,18 +131,25 @@ class FeatureReader {
                            "; name an object of that dimension, or another shape");
   }
 
-  void read_range(const YAML::Node& name, const YAML::Node& node, const PluginManifest* shape, ModelFeature& feature) {
+  /// \param shapes  of which one must have the measure
+  void read_range(const YAML::Node& name, const YAML::Node& node, const std::vector<const PluginManifest*>& shapes,
+                  ModelFeature& feature) {
     Range range;
     range.measure = name.Scalar();
     range.where = reading_.at(node);
     int dimension = any_dimension;
-    if (shape) {
-      if (const ProvidedRow* measure = shape->find_provided(range.measure))
-        dimension = measure->dimension;
-      else
-        reading_.add(name, "shape '" + shape->id + "' has no measure '" + range.measure + "'; " +
-                               name_remedy(range.measure, names_of(shape->provides)));
+    std::vector<std::string> known, ids;
+    bool all_known = true;
+    for (const PluginManifest* shape : shapes) {
+      all_known = all_known && shape;
+      if (!shape) continue;
+      ids.push_back(shape->id);
+      for (const ProvidedRow& each : shape->provides) known.push_back(each.name);
+      if (const ProvidedRow* measure = shape->find_provided(range.measure)) dimension = measure->dimension;
     }
+    if (all_known && dimension == any_dimension)
+      reading_.add(name, "shape '" + ids.front() + "' has no measure '" + range.measure + "'; " +
+                             name_remedy(range.measure, known));
     const bool read = reading_.attempt(node, [&] {
       const ParsedRange parsed = parse_range(node.Scalar(), range.where, dimension);
       range.low = parsed.low;

@@ -32,6 +32,7 @@ Model model_from_text(const std::string& text, const std::string& file, const Pl
   model.features = read_features(root, model.abstract, reading);
   model.relationships = read_relationships(root, model.features, reading);
   model.classes = read_classes(root, model.relationships, reading);
+  model.measures = read_measures(root, model.features, reading);
   errors.throw_if_any();
   return model;
 }

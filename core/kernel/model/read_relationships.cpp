@@ -41,6 +41,13 @@ void read_argument(const YAML::Node& name, const YAML::Node& node, const PluginM
                          owner + " has no argument '" + name.Scalar() + "'; " + name_remedy(name.Scalar(), known));
   }
   std::string text = node.Scalar();
+  if (row && row->type == OptionType::text) {
+    reading.attempt(node, [&] {
+      check_option({row, 1}, row->name, text, reading.at(node).str() + ": " + owner);
+      relationship.words.emplace_back(row->name, text);
+    });
+    return;
+  }
   const bool is_boolean = text == "true" || text == "false";
   if (row && row->type == OptionType::boolean && !is_boolean)
     return reading.add(node, owner + ": '" + row->name + "' is '" + text + "'; write true or false");

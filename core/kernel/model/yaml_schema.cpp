@@ -175,6 +175,42 @@ void check_key_names(const json& schema, const JsonPath& path, const LocatedJson
   }
 }
 
+/// Writes out merge keys (https://yaml.org/type/merge.html): `<<: *other` gives a mapping the keys of another one that
+/// it has not itself.
+class Merger {
+ public:
+  explicit Merger(const std::string& file) : file_(file) {}
+
+  void expand(YAML::Node node, std::size_t depth = 0) {
+    if (++visited_ > most_nodes || depth > most_depth) return;  // aliases without end are refused when they are read
+    if (node.IsSequence())
+      for (std::size_t i = 0; i < node.size(); ++i) expand(node[i], depth + 1);
+    if (!node.IsMap()) return;
+    for (const auto& entry : node) expand(entry.second, depth + 1);
+    const YAML::Node merged = node[merge_key];
+    if (!merged) return;
+    std::vector<YAML::Node> others;
+    if (merged.IsSequence())
+      for (std::size_t i = 0; i < merged.size(); ++i) others.push_back(merged[i]);
+    else
+      others.push_back(merged);
+    node.remove(merge_key);
+    for (const YAML::Node& other : others) {
+      if (!other.IsMap())
+        throw UsageError(location_of(other, file_).str() +
+                         ": '<<' takes a mapping or a list of mappings, as in '<<: *rim'; mark one with '&rim'");
+      for (const auto& entry : other)
+        if (entry.first.IsScalar() && !node[entry.first.Scalar()]) node[entry.first] = entry.second;
+    }
+  }
+
+ private:
+  static constexpr const char* merge_key = "<<";
+  static constexpr std::size_t most_nodes = 100000, most_depth = 32;
+  const std::string& file_;
+  std::size_t visited_ = 0;
+};
+
 }  // namespace
 
 SourceLocation location_of(const YAML::Node& node, const std::string& file) {
@@ -189,6 +225,7 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
     if (documents.size() != 1)
       throw UsageError(file + ":1:1: the file holds " + std::to_string(documents.size()) +
                        " YAML documents; write exactly one");
+    Merger(file).expand(documents[0]);
     return documents[0];
   } catch (const YAML::Exception& error) {
     throw UsageError(SourceLocation{file, error.mark.line + 1, error.mark.column + 1}.str() +

@@ -24,6 +24,9 @@ std::vector<OptionValue> relation_arguments(const MeshView& mesh, const Relation
     if (!std::isfinite(value->number))
       refuse_on_mesh(expression, {mesh.box, Box{}}, relationship.where, name, "must be a number; mind divisions by 0");
   }
+  for (const auto& [name, text] : relationship.words)
+    for (OptionValue& value : values)
+      if (value.name == name) value.text = text;
   check_order(station.arguments, values,
               relationship.where.str() + ": relationship '" + relationship.name + "' on this mesh");
   return values;

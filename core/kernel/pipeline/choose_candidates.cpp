@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "model/model_words.h"
 #include "pipeline/same_shape.h"
 #include "probability/likelihood.h"
 #include "toposcope/geometry/point_sets.h"
@@ -14,9 +15,28 @@
 namespace toposcope {
 namespace {
 
-void add(std::span<const GroupStatus> statuses, CandidateCount& count) {
-  count.groups += statuses.size();
-  for (const GroupStatus status : statuses) switch (status) {
+/// How far a value misses its limit, for the choice of the nearest; a value that is none misses most.
+double miss(double value, double limit) {
+  return std::isfinite(value) ? std::abs(value - limit) / std::max(std::abs(limit), 1e-300)
+                              : std::numeric_limits<double>::infinity();
+}
+
+void add_bound(const ModelFeature& feature, const GroupVerdict& verdict, std::vector<BoundCount>& bounds) {
+  auto place = std::lower_bound(bounds.begin(), bounds.end(), verdict.bound,
+                                [](const BoundCount& each, Index bound) { return each.bound < bound; });
+  if (place == bounds.end() || place->bound != verdict.bound)
+    place =
+        bounds.insert(place, {verdict.bound, bound_in_words(feature, verdict.bound), 0, verdict.value, verdict.limit});
+  ++place->groups;
+  if (miss(verdict.value, verdict.limit) >= miss(place->nearest, place->limit)) return;
+  place->nearest = verdict.value;
+  place->limit = verdict.limit;
+}
+
+void add(std::span<const GroupVerdict> verdicts, const ModelFeature& feature, CandidateCount& count) {
+  count.groups += verdicts.size();
+  for (const GroupVerdict& verdict : verdicts) {
+    switch (verdict.status) {
       case GroupStatus::boxed_out:
         ++count.boxed_out;
         break;
@@ -33,6 +53,9 @@ void add(std::span<const GroupStatus> statuses, CandidateCount& count) {
         ++count.kept;
         break;
     }
+    if (verdict.status != GroupStatus::fitted && verdict.status != GroupStatus::unusable)
+      add_bound(feature, verdict, count.bounds);
+  }
 }
 
 /// Half of the greatest error that the model allows is a typical one; where it says nothing, the pipeline does.
@@ -75,7 +98,7 @@ class Chooser {
     const std::size_t all = choices.size();
     if (job_.second_look) join_alike(choices, before);
     choices.resize(std::min(choices.size(), run_.stations.probability.max_candidates));
-    add(fits_.status[i], candidates.count);
+    add(fits_.verdicts[i], run_.model.features[job_.features[i]], candidates.count);
     candidates.count.beaten += all - choices.size();
     candidates.count.kept -= all - choices.size();
     candidates.constructed.clear();
@@ -95,9 +118,12 @@ class Chooser {
   /// How many groups there would be to choose from, had all been tried.
   double ways_of(std::size_t i) const {
     const auto fitted =
-        static_cast<double>(std::count(fits_.status[i].begin(), fits_.status[i].end(), GroupStatus::fitted));
+        static_cast<double>(std::count_if(fits_.verdicts[i].begin(), fits_.verdicts[i].end(),
+                                          [](const GroupVerdict& v) { return v.status == GroupStatus::fitted; }));
     const double tried = static_cast<double>(std::max<std::size_t>(1, fits_.groups.size()));
-    return std::max(1.0, fitted * (static_cast<double>(fits_.groups.chosen_from()) / tried));
+    // Alternatives too are choices.
+    const double shapes = static_cast<double>(run_.stations.features[job_.features[i]].shape_count());
+    return std::max(1.0, shapes * fitted * (static_cast<double>(fits_.groups.chosen_from()) / tried));
   }
 
   std::vector<Choice> choices_of(std::size_t i, const FeatureCandidates& old, double ways) const {
@@ -109,7 +135,7 @@ class Chooser {
       choices.push_back({std::log(old.ways[c]) - old.evidence[c], c, &each.shape, each.sets});
     }
     for (std::size_t g = 0; g < fits_.groups.size(); ++g) {
-      if (fits_.status[i][g] != GroupStatus::fitted) continue;
+      if (fits_.verdicts[i][g].status != GroupStatus::fitted) continue;
       const FittedShape& shape = fits_.shapes[g];
       const double evidence =
           fit_evidence(probability, shape, fit_error_sd(feature, run_.mesh, fits_.boxes[g], probability));
@@ -123,7 +149,7 @@ class Chooser {
   /// by itself.
   /// \param choices  ascending
   void join_alike(std::vector<Choice>& choices, std::size_t first) const {
-    const ShapeFitter& fitter = *run_.stations.features[job_.features.front()].fitter;
+    const ShapeFitter& fitter = *job_.station(run_.stations).fitter;
     std::vector<Choice> joined;
     for (const Choice& choice : choices) {
       const auto like = std::find_if(joined.begin(), joined.end(), [&](const Choice& other) {
@@ -146,6 +172,8 @@ class Chooser {
     ConstructedFeature& made = features_.all.emplace_back();
     made.sets.assign(fits_.groups[g].begin(), fits_.groups[g].end());
     made.shape = fits_.shapes[g];
+    made.fitter = job_.station(run_.stations).fitter.get();
+    made.plugin = job_.station(run_.stations).plugin;
     points_.gather(run_.mesh, sets_, fits_.groups[g]);
     made.points = points_.points;
     made.vertices = points_.vertices;

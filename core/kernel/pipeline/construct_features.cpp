@@ -10,23 +10,22 @@
 namespace toposcope {
 namespace {
 
-/// Whether two features of a model ask for the same shape of the same types.
-bool same_fit(const ModelRun& run, Index f, Index g) {
-  const ModelFeature &a = run.model.features[f], &b = run.model.features[g];
-  return a.shape.plugin == b.shape.plugin && a.worksets == b.worksets &&
-         run.stations.features[f].arguments == run.stations.features[g].arguments;
-}
-
+/// Features that ask for the same shape of the same types share a job.
 std::vector<FitJob> fit_jobs(const ModelRun& run) {
   std::vector<FitJob> jobs;
-  for (Index f = 0; f < run.model.features.size(); ++f) {
-    const auto same = std::find_if(jobs.begin(), jobs.end(),
-                                   [&](const FitJob& job) { return same_fit(run, job.features.front(), f); });
-    if (same != jobs.end())
-      same->features.push_back(f);
-    else
-      jobs.push_back({{f}});
-  }
+  for (Index f = 0; f < run.model.features.size(); ++f)
+    for (std::size_t k = 0; k < run.stations.features[f].shape_count(); ++k) {
+      const ShapeStation& wanted = run.stations.features[f].shape(k);
+      const auto same = std::find_if(jobs.begin(), jobs.end(), [&](const FitJob& job) {
+        const ShapeStation& station = job.station(run.stations);
+        return station.plugin == wanted.plugin && station.arguments == wanted.arguments &&
+               job.feature(run.model).worksets == run.model.features[f].worksets;
+      });
+      if (same != jobs.end())
+        same->features.push_back(f);
+      else
+        jobs.push_back({{f}, false, k});
+    }
   return jobs;
 }
 
@@ -46,8 +45,10 @@ ConstructedFeatures construct_features(const ModelRun& run, const MeasuredWorkin
 
 void construct_more(const ModelRun& run, const MeasuredWorkingSets& sets, Index feature, WorkingSetGroups groups,
                     ConstructedFeatures& features) {
-  const FitJob job{{feature}, true};
-  choose_candidates(job, fit_groups(job, std::move(groups), run, sets), run, sets, features);
+  for (std::size_t k = 0; k < run.stations.features[feature].shape_count(); ++k) {
+    const FitJob job{{feature}, true, k};
+    choose_candidates(job, fit_groups(job, groups, run, sets), run, sets, features);
+  }
 }
 
 }  // namespace toposcope

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "toposcope/shapes.h"
@@ -13,9 +14,20 @@ namespace toposcope {
 struct ConstructedFeature {
   std::vector<Index> sets;  ///< working sets, in the order of the feature's types
   FittedShape shape;
-  Box box;                      ///< bb(w)
-  std::vector<Vec3> points;     ///< of all sets, one after the other
-  std::vector<Index> vertices;  ///< of the mesh, one per point
+  const ShapeFitter* fitter = nullptr;  ///< that made the shape
+  std::string plugin;                   ///< its id
+  Box box;                              ///< bb(w)
+  std::vector<Vec3> points;             ///< of all sets, one after the other
+  std::vector<Index> vertices;          ///< of the mesh, one per point
+};
+
+/// What one bound of the model cost a feature.
+struct BoundCount {
+  Index bound = 0;         ///< 2 r + 0 the lower and + 1 the upper one of range r; after them max_fit_error
+  std::string words;       ///< "radius < bb(O).a/2"
+  std::size_t groups = 0;  ///< that broke it, and no bound before it
+  double nearest = 0;      ///< of these the value that misses it least, as boxes or the fit tell, in its unit
+  double limit = 0;        ///< what the bound is of that group
 };
 
 /// How many groups of working sets a feature lost at each condition.
@@ -27,6 +39,7 @@ struct CandidateCount {
   std::size_t poor_fit = 0;      ///< fit error beyond max_fit_error
   std::size_t beaten = 0;        ///< the same as a better one, or beyond the number of candidates kept
   std::size_t kept = 0;
+  std::vector<BoundCount> bounds;  ///< that cost something, in the order of the model
 };
 
 /// T(f) for one model feature, best evidence first once each has paid for the choice among its look's groups.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -37,26 +38,32 @@ bool finite(const FittedShape& shape) {
 }
 
 /// As far as boxes tell.
-GroupStatus status_by_boxes(const ModelFeature& feature, const FeatureStation& station, const ExpressionBoxes& boxes,
-                            std::span<const Box> set_boxes) {
-  for (const Range& range : feature.ranges) {
-    const Bounds bounds = evaluate(range, boxes);
-    const Interval possible = station.fitter->bounds(range.measure, set_boxes, Options(station.arguments));
-    if (possible.high <= bounds.low || possible.low >= bounds.high) return GroupStatus::boxed_out;
+GroupVerdict verdict_by_boxes(const ModelFeature& feature, const ShapeStation& station, const ExpressionBoxes& boxes,
+                              std::span<const Box> set_boxes) {
+  for (Index r = 0; r < feature.ranges.size(); ++r) {
+    const Bounds bounds = evaluate(feature.ranges[r], boxes);
+    const Interval possible = station.fitter->bounds(feature.ranges[r].measure, set_boxes, Options(station.arguments));
+    if (possible.high <= bounds.low) return {GroupStatus::boxed_out, 2 * r, possible.high, bounds.low};
+    if (possible.low >= bounds.high) return {GroupStatus::boxed_out, 2 * r + 1, possible.low, bounds.high};
   }
-  return GroupStatus::fitted;
+  return {GroupStatus::fitted};
 }
 
 /// Once it is fitted.
-GroupStatus status_by_fit(const ModelFeature& feature, const ExpressionBoxes& boxes, const FittedShape& shape) {
-  if (!shape.summary.usable() || !finite(shape)) return GroupStatus::unusable;
-  for (const Range& range : feature.ranges) {
-    const Bounds bounds = evaluate(range, boxes);
-    const Measure* measure = shape.measure(range.measure);
-    if (!measure || !(measure->value > bounds.low && measure->value < bounds.high)) return GroupStatus::out_of_range;
+GroupVerdict verdict_by_fit(const ModelFeature& feature, const ExpressionBoxes& boxes, const FittedShape& shape) {
+  if (!shape.summary.usable() || !finite(shape)) return {GroupStatus::unusable};
+  for (Index r = 0; r < feature.ranges.size(); ++r) {
+    const Bounds bounds = evaluate(feature.ranges[r], boxes);
+    const Measure* measure = shape.measure(feature.ranges[r].measure);
+    if (!measure && !feature.other_shapes.empty()) continue;  // it bounds another of the shapes
+    const double value = measure ? measure->value : std::numeric_limits<double>::quiet_NaN();
+    if (!(value > bounds.low)) return {GroupStatus::out_of_range, 2 * r, value, bounds.low};
+    if (!(value < bounds.high)) return {GroupStatus::out_of_range, 2 * r + 1, value, bounds.high};
   }
-  if (feature.max_fit_error && shape.rms > feature.max_fit_error->evaluate(boxes)) return GroupStatus::poor_fit;
-  return GroupStatus::fitted;
+  if (feature.max_fit_error)
+    if (const double limit = feature.max_fit_error->evaluate(boxes); shape.rms > limit)
+      return {GroupStatus::poor_fit, static_cast<Index>(2 * feature.ranges.size()), shape.rms, limit};
+  return {GroupStatus::fitted};
 }
 
 /// Fits group after group of a job; one per thread.
@@ -67,7 +74,7 @@ class GroupFitter {
         run_(run),
         sets_(sets),
         fits_(fits),
-        station_(run.stations.features[job.features.front()]),
+        station_(job.station(run.stations)),
         needs_box_(std::any_of(job.features.begin(), job.features.end(),
                                [&](Index f) { return uses_working_set_box(run.model.features[f]); })) {}
 
@@ -84,8 +91,8 @@ class GroupFitter {
     }
     bool wanted = false;
     for (std::size_t i = 0; i < job_.features.size(); ++i) {
-      fits_.status[i][g] = status_by_boxes(feature(i), station_, {mesh.box, box}, set_boxes_);
-      wanted = wanted || fits_.status[i][g] == GroupStatus::fitted;
+      fits_.verdicts[i][g] = verdict_by_boxes(feature(i), station_, {mesh.box, box}, set_boxes_);
+      wanted = wanted || fits_.verdicts[i][g].status == GroupStatus::fitted;
     }
     if (!wanted) return;
     if (!joint_box) points_.gather(mesh, sets_, group);
@@ -102,8 +109,8 @@ class GroupFitter {
                          points_.vertices};
     fits_.shapes[g] = station_.fitter->fit(input, Options(station_.arguments), run_.context);
     for (std::size_t i = 0; i < job_.features.size(); ++i)
-      if (GroupStatus& status = fits_.status[i][g]; status == GroupStatus::fitted)
-        status = status_by_fit(feature(i), {mesh.box, box}, fits_.shapes[g]);
+      if (GroupVerdict& verdict = fits_.verdicts[i][g]; verdict.status == GroupStatus::fitted)
+        verdict = verdict_by_fit(feature(i), {mesh.box, box}, fits_.shapes[g]);
   }
 
  private:
@@ -113,8 +120,8 @@ class GroupFitter {
   const ModelRun& run_;
   const MeasuredWorkingSets& sets_;
   GroupFits& fits_;
-  const FeatureStation& station_;  ///< the same shape and arguments for all features of the job
-  bool needs_box_;                 ///< bb(w) itself, not a stand-in
+  const ShapeStation& station_;  ///< the same shape and arguments for all features of the job
+  bool needs_box_;               ///< bb(w) itself, not a stand-in
   GroupPoints points_;
   std::vector<Box> set_boxes_;
 };
@@ -139,8 +146,8 @@ GroupFits fit_groups(const FitJob& job, WorkingSetGroups groups, const ModelRun&
   const std::size_t count = fits.groups.size();
   fits.shapes.resize(count);
   fits.boxes.resize(count);
-  fits.status.assign(job.features.size(), std::vector<GroupStatus>(count, GroupStatus::boxed_out));
-  guard(job.feature(run.model).shape.plugin, [&] {
+  fits.verdicts.assign(job.features.size(), std::vector<GroupVerdict>(count));
+  guard(job.station(run.stations).plugin, [&] {
     run.context.parallel_for(count, grain, [&](std::size_t first, std::size_t last) {
       GroupFitter fitter(job, run, sets, fits);
       for (std::size_t g = first; g < last && !run.context.cancelled(); ++g) fitter.fit(g);

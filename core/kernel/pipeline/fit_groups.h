@@ -16,7 +16,11 @@ namespace toposcope {
 struct FitJob {
   std::vector<Index> features;  ///< of the model, at least one
   bool second_look = false;     ///< of the types that the features name for it
+  std::size_t shape = 0;        ///< which of the first feature's shapes it is
 
+  const ShapeStation& station(const Stations& stations) const {
+    return stations.features[features.front()].shape(shape);
+  }
   const ModelFeature& feature(const Model& model) const { return model.features[features.front()]; }
   const std::vector<std::string>& types(const Model& model) const {
     return second_look ? feature(model).second_look : feature(model).worksets;
@@ -32,12 +36,19 @@ enum class GroupStatus : std::uint8_t {
   fitted
 };
 
+/// What became of a group with one feature, and of the bound that it broke: BoundCount::bound, its value, the limit.
+struct GroupVerdict {
+  GroupStatus status = GroupStatus::boxed_out;
+  Index bound = 0;
+  double value = 0, limit = 0;
+};
+
 /// The fits of one job, one per group.
 struct GroupFits {
   WorkingSetGroups groups;
   std::vector<FittedShape> shapes = {};
-  std::vector<Box> boxes = {};                        ///< bb(w)
-  std::vector<std::vector<GroupStatus>> status = {};  ///< per feature of the job, per group
+  std::vector<Box> boxes = {};                           ///< bb(w)
+  std::vector<std::vector<GroupVerdict>> verdicts = {};  ///< per feature of the job, per group
 };
 
 /// Fits, in parallel, the groups that may meet the ranges of some feature of the job.

@@ -18,7 +18,6 @@ class ValuesByShape {
   ValuesByShape(const ClassOutcome& posed, Index variable, const ConstructedFeatures& features, const ModelRun& run)
       : variable_(posed.problem.variables[variable]),
         posterior_(posed.outcome.posteriors[variable]),
-        fitter_(*run.stations.features[posed.features[variable]].fitter),
         features_(features),
         mean_edge_(run.mesh.mean_edge) {}
 
@@ -62,15 +61,14 @@ class ValuesByShape {
  private:
   bool same(Index a, Index b) const {
     if (a == 0 || b == 0) return false;
-    const auto shape = [&](Index value) -> const FittedShape& {
-      return features_.all[variable_.candidates[value - 1]].shape;
+    const auto made = [&](Index value) -> const ConstructedFeature& {
+      return features_.all[variable_.candidates[value - 1]];
     };
-    return same_shape(fitter_, shape(a), shape(b), mean_edge_);
+    return made(a).fitter == made(b).fitter && same_shape(*made(a).fitter, made(a).shape, made(b).shape, mean_edge_);
   }
 
   const LabelingVariable& variable_;
   const std::vector<double>& posterior_;
-  const ShapeFitter& fitter_;
   const ConstructedFeatures& features_;
   double mean_edge_;
 };

@@ -98,11 +98,15 @@ Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const
   SharedPlugins plugins(host, pipeline, stations.uses);
   for (const ModelFeature& feature : model.features) {
     check_types(feature, worksets, pipeline);
-    const std::string where = feature.shape.where.str();
-    const PluginManifest& shape = catalog.require(PluginKind::shapes, feature.shape.plugin, where);
-    FeatureStation& station = stations.features.emplace_back();
-    station.arguments = check_options(shape.arguments, feature.shape.arguments, where + ": shape '" + shape.id + "'");
-    station.fitter = plugins.shape(shape);
+    const auto shape_station = [&](const ShapeSpec& spec) {
+      const std::string where = spec.where.str();
+      const PluginManifest& shape = catalog.require(PluginKind::shapes, spec.plugin, where);
+      return ShapeStation{plugins.shape(shape),
+                          check_options(shape.arguments, spec.arguments, where + ": shape '" + shape.id + "'"),
+                          shape.id};
+    };
+    FeatureStation& station = stations.features.emplace_back(FeatureStation{shape_station(feature.shape), {}});
+    for (const ShapeSpec& other : feature.other_shapes) station.others.push_back(shape_station(other));
   }
   for (const Relationship& relationship : model.relationships) {
     const std::string where = relationship.where.str();

@@ -47,10 +47,25 @@ struct WorkingSetStation {
   std::shared_ptr<const WorkingSetClassifier> plugin;
 };
 
-/// What fits the shape of one model feature.
-struct FeatureStation {
+/// What fits one shape of a model feature.
+struct ShapeStation {
   std::shared_ptr<const ShapeFitter> fitter;
   std::vector<OptionValue> arguments;  ///< what the model says of the shape, checked
+  std::string plugin;                  ///< id
+};
+
+/// What fits the shapes of one model feature: more than one where they are alternatives.
+struct FeatureStation : ShapeStation {
+  std::vector<ShapeStation> others;
+
+  std::size_t shape_count() const { return 1 + others.size(); }
+  const ShapeStation& shape(std::size_t k) const { return k == 0 ? *this : others[k - 1]; }
+  /// The station that has made a shape.
+  const ShapeStation& of_plugin(std::string_view id) const {
+    for (const ShapeStation& other : others)
+      if (other.plugin == id) return other;
+    return *this;
+  }
 };
 
 /// What tests one relationship of the model.

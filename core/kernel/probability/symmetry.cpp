@@ -11,9 +11,14 @@ namespace {
 
 /// All that tells features apart but their names.
 std::string signature(const ModelFeature& feature, bool by_detectability) {
-  std::string text = feature.shape.plugin;
+  std::string text;
+  const auto add_shape = [&](const ShapeSpec& shape) {
+    text += "|shape " + shape.plugin;
+    for (const auto& [name, value] : shape.arguments) text += "|" + name + "=" + value;
+  };
+  add_shape(feature.shape);
+  for (const ShapeSpec& other : feature.other_shapes) add_shape(other);
   if (by_detectability) text += "|" + std::to_string(feature.detectability);
-  for (const auto& [name, value] : feature.shape.arguments) text += "|" + name + "=" + value;
   for (const std::string& type : feature.worksets) text += "|" + type;
   for (const std::string& type : feature.second_look) text += "|again " + type;
   for (const Range& range : feature.ranges)
@@ -37,6 +42,7 @@ std::multiset<std::string> relationships_under(const Question& question, const s
     std::string text = relationship.plugin;
     for (Index position : scope) text += "|" + std::to_string(position);
     for (const auto& [name, value] : relationship.arguments) text += "|" + name + "=" + value.text();
+    for (const auto& [name, value] : relationship.words) text += "|" + name + "=" + value;
     if (relationship.tolerance) text += "|" + relationship.tolerance->text();
     all.insert(std::move(text));
   }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/sha256.h"
 #include "mesh/content_hash.h"
-#include "pipeline/bound_relation.h"
+#include "model/model_words.h"
 #include "pipeline/most_probable_shapes.h"
+#include "result/relation_report.h"
 #include "result/result.h"
 #include "toposcope/labeling/tools.h"
 
@@ -20,31 +23,7 @@ class Explainer {
       : analysis_(analysis), run_(run), posed_(analysis.classes[analysis.best]), best_(posed_.answer) {}
 
   RelationReport relation(Index constraint, const Labeling& labeling) const {
-    const Index r = posed_.relationships[constraint];
-    const Relationship& relationship = run_.model.relationships[r];
-    RelationReport report;
-    report.name = relationship.name;
-    report.type = relationship.plugin;
-    report.unit = run_.stations.relationships[r].unit;
-    std::vector<const ConstructedFeature*> given;
-    for (Index v : posed_.problem.constraints[constraint].scope) {
-      report.features.push_back(posed_.problem.variables[v].name);
-      if (labeling.values[v] == 0)
-        report.why = "'" + report.features.back() + "' is missing";
-      else
-        given.push_back(&constructed(v, labeling.values[v]));
-    }
-    if (!report.why.empty()) return report;
-    const RelationResult result = test_relationship(run_, r, given);
-    const double scale = report.unit == "deg" ? 180 / pi : 1;
-    report.tested = true;
-    report.applicable = result.applicable;
-    report.why = result.why;
-    report.residual = result.residual * scale;
-    report.tolerance = result.tolerance * scale;
-    report.satisfied = violation(result) <= 1;
-    report.probability = relation_probability(run_.stations.probability, result);
-    return report;
+    return report_relation(run_, posed_, analysis_.features, constraint, labeling);
   }
 
   FeatureReport feature(Index model_feature) const {
@@ -65,6 +44,7 @@ class Explainer {
       const ConstructedFeature& made = constructed(v, value);
       report.evidence = -price_over_missing(best_, v).cost;
       report.shape = made.shape;
+      report.shape_plugin = made.plugin;
       report.working_sets = made.sets;
       report.triangles = triangles_of(made);
       for (Index t : report.triangles) report.faces.push_back(analysis_.mesh.input->face_origin()[t]);
@@ -168,13 +148,12 @@ class Explainer {
     if (count.groups == 0) return "no working set of type " + types;
     std::string reason =
         "none of " + std::to_string(count.groups) + " groups of working sets of type " + types + " became a candidate:";
-    const auto part = [&](std::size_t n, const char* what) {
-      if (n > 0) reason += " " + std::to_string(n) + " " + what + ";";
-    };
-    part(count.boxed_out, "too large or too small for the model's ranges");
-    part(count.unusable, ("without a usable " + feature.shape.plugin).c_str());
-    part(count.out_of_range, "with a parameter outside the model's ranges");
-    part(count.poor_fit, "with a fit error beyond max_fit_error");
+    for (const BoundCount& bound : count.bounds)
+      reason +=
+          fmt::format(" {} break {} = {:.4g}{};", bound.groups, bound.words, bound.limit,
+                      std::isfinite(bound.nearest) ? fmt::format(" (the nearest has {:.4g})", bound.nearest) : "");
+    if (count.unusable > 0)
+      reason += fmt::format(" {} are without a usable {};", count.unusable, shapes_in_words(feature));
     if (reason.back() == ';') reason.pop_back();
     return reason;
   }
@@ -226,6 +205,9 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
     result.features.push_back(explainer.feature(f));
     result.candidates.emplace_back(model.features[f].name, analysis.features.of_feature[f].count);
   }
+  std::vector<const FittedShape*> found;
+  for (const FeatureReport& report : result.features) found.push_back(report.present ? &report.shape : nullptr);
+  result.measurements = measure(model, found, result.box);
   const Labeling& best = posed.answer;
   for (Index c = 0; c < posed.problem.constraints.size(); ++c) result.relations.push_back(explainer.relation(c, best));
   const auto present = std::count_if(best.values.begin(), best.values.end(), [](Index value) { return value > 0; });

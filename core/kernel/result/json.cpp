@@ -102,14 +102,47 @@ Json feature(const FeatureReport& report) {
   return object;
 }
 
+Json measurement(const Measurement& each) {
+  Json object = {{"expression", each.expression}, {"unit", each.unit}};
+  if (!each.why.empty()) {
+    object["value"] = nullptr;
+    object["why"] = each.why;
+  } else {
+    object["value"] = number(each.value);
+    object["sd"] = number(each.sd);
+  }
+  return object;
+}
+
+/// Of those that have a value.
+Json measurement_covariance(const Measurements& measured) {
+  Json of = Json::array(), rows = Json::array();
+  for (std::size_t i = 0; i < measured.all.size(); ++i) {
+    if (!measured.all[i].why.empty()) continue;
+    of.push_back(measured.all[i].name);
+    Json row = Json::array();
+    for (std::size_t j = 0; j < measured.all.size(); ++j)
+      if (measured.all[j].why.empty()) row.push_back(number(measured.between(i, j)));
+    rows.push_back(std::move(row));
+  }
+  return {{"of", of}, {"covariance", rows}};
+}
+
 Json candidate_count(const CandidateCount& count) {
+  Json bounds = Json::array();
+  for (const BoundCount& bound : count.bounds)
+    bounds.push_back({{"bound", bound.words},
+                      {"groups", bound.groups},
+                      {"nearest", number(bound.nearest)},
+                      {"limit", number(bound.limit)}});
   return {{"kept", count.kept},
           {"groups", count.groups},
           {"boxed_out", count.boxed_out},
           {"unusable", count.unusable},
           {"out_of_range", count.out_of_range},
           {"poor_fit", count.poor_fit},
-          {"beaten", count.beaten}};
+          {"beaten", count.beaten},
+          {"broken_bounds", bounds}};
 }
 
 Json document(const Result& result) {
@@ -143,6 +176,10 @@ Json document(const Result& result) {
   for (const FeatureReport& report : result.features) root["features"][report.name] = feature(report);
   root["relations"] = Json::array();
   for (const RelationReport& report : result.relations) root["relations"].push_back(relation(report));
+  if (!result.measurements.all.empty()) {
+    for (const Measurement& each : result.measurements.all) root["measures"][each.name] = measurement(each);
+    root["measures_covariance"] = measurement_covariance(result.measurements);
+  }
   root["alternatives"] = Json::array();
   for (const AlternativeReport& report : result.alternatives) {
     Json alternative = {{"probability", number(report.probability)}, {"cost", number(report.cost)}};

@@ -9,6 +9,7 @@
 #include "mesh/repair.h"
 #include "pipeline/analysis.h"
 #include "result/conflict.h"
+#include "result/measurements.h"
 
 namespace toposcope {
 
@@ -87,6 +88,7 @@ struct Result {
   bool optimal = false;
   std::vector<FeatureReport> features;
   std::vector<RelationReport> relations;
+  Measurements measurements;
   std::vector<AlternativeReport> alternatives;
   std::vector<std::pair<std::string, CandidateCount>> candidates;
   std::size_t working_sets = 0;
@@ -102,6 +104,11 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
 std::string to_json(const Result& result);
 /// The same on one line.
 std::string to_json_line(const Result& result);
+
+/// The measures of one mesh as a row of `run --measures`, and the row of names above them: the mesh, and for each
+/// measure its value and standard deviation, empty where there is none.
+std::string measures_csv_head(const Model& model);
+std::string measures_csv_row(const Result& result);
 
 /// The table that `run` prints.
 std::string to_text(const Result& result);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/csv.h"
 #include "io/mesh_io.h"
 #include "result/palette.h"
 #include "result/repair_words.h"
@@ -23,6 +24,22 @@ std::string value_of(const FeatureReport& report) {
     if (text.size() < 60)
       text += fmt::format("{}{} {:.4g}{}", text.empty() ? "" : ", ", measure.name, measure.value,
                           measure.sd > 0 ? fmt::format(" +- {:.2g}", measure.sd) : "");
+  return text;
+}
+
+std::string measures_text(const Measurements& measured) {
+  std::size_t name = 7, expression = 10;
+  for (const Measurement& each : measured.all) {
+    name = std::max(name, each.name.size());
+    expression = std::max(expression, each.expression.size());
+  }
+  std::string text = fmt::format("\n  {:<{}} {:<{}} {:>10} {:>10} {}\n", "measure", name, "expression", expression,
+                                 "value", "sd", "unit");
+  for (const Measurement& each : measured.all)
+    text += each.why.empty()
+                ? fmt::format("  {:<{}} {:<{}} {:>10.5g} {:>10.2g} {}\n", each.name, name, each.expression, expression,
+                              each.value, each.sd, each.unit)
+                : fmt::format("  {:<{}} {:<{}} {}\n", each.name, name, each.expression, expression, each.why);
   return text;
 }
 
@@ -70,7 +87,22 @@ std::string to_text(const Result& result) {
     else
       text += fmt::format("  {:<{}} {:<{}} {:<34}{}\n", report.name, name, report.type, type, features, report.why);
   }
+  if (!result.measurements.all.empty()) text += measures_text(result.measurements);
   return text;
+}
+
+std::string measures_csv_head(const Model& model) {
+  std::string row = "mesh";
+  for (const ModelMeasure& measure : model.measures)
+    row += "," + csv_field(measure.name) + "," + csv_field(measure.name + "_sd");
+  return row + "\n";
+}
+
+std::string measures_csv_row(const Result& result) {
+  std::string row = csv_field(result.mesh_path);
+  for (const Measurement& each : result.measurements.all)
+    row += each.why.empty() ? fmt::format(",{},{}", each.value, each.sd) : ",,";
+  return row + "\n";
 }
 
 void write_labels(const std::filesystem::path& path, const Mesh& input, const Result& result) {

@@ -98,7 +98,7 @@ class SceneMaker {
                                 : std::numeric_limits<double>::quiet_NaN();
     const auto at = std::find(all.constructed.begin(), all.constructed.end(), constructed);
     candidate.evidence = all.evidence[static_cast<std::size_t>(at - all.constructed.begin())];
-    candidate.shape = model_.features[feature].shape.plugin;
+    candidate.shape = made.plugin;
     candidate.parameters = made.shape.parameters;
     candidate.fit_error = made.shape.rms;
     for (const Index set : made.sets) candidate.working_sets.push_back(shown_set(set));

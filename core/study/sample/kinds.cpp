@@ -16,9 +16,9 @@ struct Maker {
   SampleKind (*kind)();
   Solid (*make)(const ParameterValues&);
 };
-constexpr Maker makers[] = {{cup_kind, make_cup},          {tee_kind, make_tee},     {wye_kind, make_wye},
-                            {cross_kind, make_cross},      {elbow_kind, make_elbow}, {tricorner_kind, make_tricorner},
-                            {airplane_kind, make_airplane}};
+constexpr Maker makers[] = {{cup_kind, make_cup},           {tee_kind, make_tee},     {wye_kind, make_wye},
+                            {cross_kind, make_cross},       {elbow_kind, make_elbow}, {tricorner_kind, make_tricorner},
+                            {airplane_kind, make_airplane}, {plate_kind, make_plate}, {flange_kind, make_flange}};
 
 const SampleKind& find_kind(const std::vector<SampleKind>& kinds, const std::string& name) {
   std::vector<std::string> names;

@@ -5,13 +5,20 @@
 
 #include <array>
 #include <random>
+#include <utility>
 
+#include "base/errors.h"
 #include "sample/mesh_solid.h"
 #include "toposcope/system/random.h"
 
 namespace toposcope {
 
 namespace {
+
+void number_faces(TriangleSoup& mesh) {
+  mesh.input_faces = static_cast<Index>(mesh.triangles.size());
+  for (Index f = 0; f < mesh.input_faces; ++f) mesh.face_origin.push_back(f);
+}
 
 void add_noise(std::vector<Vec3>& positions, const Implicit& surface, const SampleRequest& request) {
   Vec3 low = positions.front(), high = low;
@@ -29,6 +36,22 @@ void add_noise(std::vector<Vec3>& positions, const Implicit& surface, const Samp
   }
 }
 
+/// The tessellation's own faces, however many.
+Sample tessellated(const Solid& solid, const SampleRequest& request, Sample sample) {
+  if (request.noise_rel > 0)
+    throw UsageError(
+        fmt::format("{}: noise is {}: a tessellation is exact; scan it instead", request.kind, request.noise_rel));
+  TessellatedSolid made = solid.tessellate(false);
+  sample.mesh = std::move(made.mesh);
+  sample.face_part = std::move(made.face_part);
+  sample.part_names = solid.part_names;
+  sample.tessellated = true;
+  number_faces(sample.mesh);
+  sample.truth.features = solid.features;
+  for (TruthFeature& feature : sample.truth.features) mark_vertices(feature, sample.mesh.positions);
+  return sample;
+}
+
 }  // namespace
 
 Sample make_sample(const SampleRequest& request, Context& context) try {
@@ -39,11 +62,11 @@ Sample make_sample(const SampleRequest& request, Context& context) try {
   sample.seed = request.seed;
 
   const Solid solid = make_solid(request.kind, sample.parameters);
+  if (solid.tessellate) return tessellated(solid, request, std::move(sample));
   sample.mesh = mesh_solid(solid, request, context);
   const auto& triangles = sample.mesh.triangles;
   std::vector<Vec3>& positions = sample.mesh.positions;
-  sample.mesh.input_faces = static_cast<Index>(triangles.size());
-  for (Index f = 0; f < sample.mesh.input_faces; ++f) sample.mesh.face_origin.push_back(f);
+  number_faces(sample.mesh);
 
   sample.truth.features = solid.features;
   for (TruthFeature& feature : sample.truth.features) mark_vertices(feature, positions);

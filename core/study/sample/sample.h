@@ -50,7 +50,7 @@ std::string describe_range(const SampleKind& kind, const std::string& parameter)
 struct SampleRequest {
   std::string kind = {};
   std::map<std::string, double> parameters = {};  ///< those that differ from the kind's defaults
-  Index faces = 20000;                            ///< of the mesh; met within 3 %
+  Index faces = 20000;                            ///< of the mesh; met within 3 %, but of a tessellated kind
   double noise_rel = 0;     ///< standard deviation of the noise along the vertex normals, in box diagonals
   std::uint64_t seed = 1;   ///< of the noise and of random parameters
   std::string preset = {};  ///< name of a preset to start from instead of the defaults
@@ -78,10 +78,13 @@ struct Sample {
   std::vector<std::string> part_names;
   std::vector<std::uint8_t> face_part;  ///< for each triangle an index into part_names
   double thinnest = 0, gap = 0;         ///< least thickness of material, least gap between parts; 0: not known
+  bool tessellated =
+      false;  ///< as a program for CAD exports it: the kind, and not the request, sets the number of faces
   std::optional<ScanRecord> scan;
 };
 
-/// Makes a closed, oriented, manifold mesh of the object and its truth.
+/// Makes a closed, oriented, manifold mesh of the object and its truth; an unwelded one has corners of its own for each
+/// face.
 /// \throw UsageError  unknown kind, preset or parameter, a value out of range, parameters that contradict each other,
 /// fewer faces than the object needs
 Sample make_sample(const SampleRequest& request, Context& context);

@@ -111,6 +111,16 @@ Sample make_scan_target(const SampleRequest& request, Context& context) try {
   sample.seed = request.seed;
   sample.parameters = requested_parameters(request);
   const Solid solid = make_solid(request.kind, sample.parameters);
+  sample.gap = solid.gap;
+  sample.thinnest = solid.thinnest;
+  sample.truth.features = solid.features;
+  if (solid.tessellate) {
+    TessellatedSolid fine = solid.tessellate(true);
+    sample.mesh = std::move(fine.mesh);
+    sample.face_part = std::move(fine.face_part);
+    sample.part_names = solid.part_names;
+    return sample;
+  }
   // The net may be coarse, as in make_sample: rays do not mind faces of uneven size.
   const double level = net_level(solid);
   const double diagonal = (solid.high - solid.low).norm();
@@ -128,9 +138,6 @@ Sample make_scan_target(const SampleRequest& request, Context& context) try {
     refine(sample.mesh, solid, spacing, wanted, first_new, context);
     first_new = before;
   }
-  sample.gap = solid.gap;
-  sample.thinnest = solid.thinnest;
-  sample.truth.features = solid.features;
   mark_parts(sample, solid, context);
   return sample;
 } catch (const ParameterError& error) {

@@ -14,9 +14,16 @@
 
 namespace toposcope {
 
+/// The faces of a solid as a program for CAD exports them, each with its part.
+struct TessellatedSolid {
+  TriangleSoup mesh;
+  std::vector<std::uint8_t> face_part;
+};
+
 struct Solid {
-  Implicit surface;
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< contain the solid
+  Implicit surface;                                       ///< none where it is tessellated
+  std::function<TessellatedSolid(bool fine)> tessellate;  ///< as exported, or as finely as a scan wants it; else none
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();           ///< contain the solid
   double thinnest = 0;                 ///< least thickness of material or gap: no cell of the grid may reach across it
   std::string thinnest_parameter;      ///< the parameter that sets it
   double gap = 0;                      ///< least width of the gaps between parts; not more than it is
@@ -56,6 +63,10 @@ SampleKind tricorner_kind();
 Solid make_tricorner(const ParameterValues& parameters);
 SampleKind airplane_kind();
 Solid make_airplane(const ParameterValues& parameters);
+SampleKind plate_kind();
+Solid make_plate(const ParameterValues& parameters);
+SampleKind flange_kind();
+Solid make_flange(const ParameterValues& parameters);
 
 /// For each point of a feature the nearest vertex; points whose vertex is taken already are dropped.
 void mark_vertices(TruthFeature& feature, const std::vector<Vec3>& positions);

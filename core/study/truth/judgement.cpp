@@ -80,14 +80,15 @@ class Judge {
       if (model.features[f].name != truth.name) continue;
       for (const Index candidate : analysis.problem.variables[f].candidates) {
         FeatureJudgement judged;
-        measure(analysis.features.all[candidate].shape, *stations_.features[f].fitter, truth, judged);
+        const ConstructedFeature& made = analysis.features.all[candidate];
+        measure(made.shape, *made.fitter, truth, judged);
         best = std::min(best, judged.excess);
       }
     }
     return best;
   }
 
- private:
+  /// What a shape is off, and by how much of what is allowed.
   void measure(const FittedShape& shape, const ShapeFitter& fitter, const TruthFeature& truth,
                FeatureJudgement& judged) const {
     if (!truth.groups.empty()) {
@@ -105,6 +106,7 @@ class Judge {
       judged.excess = judged.distance / (limits_.shape_edges * scale_.mean_edge);
   }
 
+ private:
   const Stations& stations_;
   const Limits& limits_;
   const Judgement& scale_;
@@ -133,6 +135,13 @@ std::size_t Judgement::right() const {
       std::count_if(features.begin(), features.end(), [](const FeatureJudgement& f) { return is_right(f.verdict); }));
 }
 
+double excess_of(const FittedShape& shape, const ShapeFitter& fitter, const TruthFeature& truth, const Judgement& scale,
+                 const Stations& stations, const Limits& limits) {
+  FeatureJudgement judged;
+  Judge(stations, limits, scale).measure(shape, fitter, truth, judged);
+  return judged.excess;
+}
+
 Judgement judge(const Result& result, const Analysis& analysis, const Model& model, const Stations& stations,
                 const Truth& truth, const Limits& limits) {
   const ClassOutcome& posed = analysis.classes[analysis.best];
@@ -153,8 +162,9 @@ Judgement judge(const Result& result, const Analysis& analysis, const Model& mod
     for (Index f = 0; f < model.features.size(); ++f) {
       const TruthFeature* known = truth.find(model.features[f].name);
       if (!known) continue;
-      judged.features.push_back(
-          judge.feature(result.features[name_of[f]], *stations.features[name_of[f]].fitter, *known));
+      const FeatureReport& report = result.features[name_of[f]];
+      const ShapeStation& made = stations.features[name_of[f]].of_plugin(report.shape_plugin);
+      judged.features.push_back(judge.feature(report, *made.fitter, *known));
       const FeatureJudgement& last = judged.features.back();
       if (std::isfinite(last.excess)) excess += last.excess;
     }

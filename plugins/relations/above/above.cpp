@@ -48,8 +48,11 @@ class Above final : public RelationTester {
     const Up up = pair ? from_to(third, *input.features[3].shape) : towards(lower, third, result.tolerance);
     if (!(up.direction.squaredNorm() > 0)) {
       result.applicable = false;
-      result.why = pair ? "the third and the fourth feature have one centroid: they do not say what is up"
-                        : "the third feature lies level with the second: it does not say what is up";
+      result.why =
+          pair ? "the third and the fourth feature have one centroid: they do not say what is up"
+               : "the third feature lies level with the second along its own normal or axis, which may not be "
+                 "the direction that is meant; name two features instead, [upper, lower, from, to], and the way "
+                 "from one to the other is up";
       return result;
     }
     const Vec3 between = upper.centroid - lower.centroid;

@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two features are equally large.
 
-#include <algorithm>
 #include <cmath>
 
+#include "toposcope/geometry/sizes.h"
 #include "toposcope/plugin.h"
 
 namespace {
 
 using namespace toposcope;
-
-struct Sizes {
-  const Measure* first = nullptr;
-  const Measure* second = nullptr;
-};
-
-/// The first measure that both shapes have: the radius of circles, the total length of line groups.
-Sizes common_measure(const FittedShape& first, const FittedShape& second) {
-  for (const Measure& a : first.measures)
-    for (const Measure& b : second.measures)
-      if (a.name == b.name && a.value > 0 && b.value > 0) return {&a, &b};
-  return {};
-}
 
 class SameSize final : public RelationTester {
  public:
@@ -32,7 +19,7 @@ class SameSize final : public RelationTester {
     RelationResult result;
     if (!sizes.first) {
       result.applicable = false;
-      result.why = "the shapes have no measure in common, or one of them is 0";
+      result.why = no_common_measure;
       return result;
     }
     const double mean = (sizes.first->value + sizes.second->value) / 2;

@@ -85,6 +85,33 @@ inline RelationResult relate(const RelationTester& relation, const Feature& firs
   return relation.test({operands, box, 0.1 * motion.scale}, arguments, context());
 }
 
+/// The same of any number of features.
+inline RelationResult relate_all(const std::string& id, const std::vector<Feature>& features,
+                                 const Settings& settings = {}, const Motion& motion = {}) {
+  const Arguments arguments(PluginKind::relations, id, settings);
+  std::vector<Feature> there;
+  for (const Feature& feature : features) there.push_back(moved(feature, motion));
+  std::vector<RelationOperand> operands;
+  for (const Feature& feature : there) operands.push_back({&feature.shape, feature.points, {}});
+  Box box;
+  box.sides = {4 * motion.scale, 3 * motion.scale, 2 * motion.scale};
+  return relation(id)->test({operands, box, 0.1 * motion.scale}, arguments.options(), context());
+}
+
+/// A rotated, scaled, translated scene gets the same verdict. \pre the settings hold no length
+inline void expect_pose_does_not_matter(const std::string& id, const std::vector<Feature>& features,
+                                        const Settings& settings = {}) {
+  const RelationResult here = relate_all(id, features, settings);
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Motion motion = some_motion(seed);
+    const RelationResult there = relate_all(id, features, settings, motion);
+    EXPECT_NEAR(there.residual / motion.scale, here.residual, 1e-9) << "seed " << seed;
+    EXPECT_NEAR(there.tolerance / motion.scale, here.tolerance, 1e-9);
+    EXPECT_NEAR(there.slack / motion.scale, here.slack, 1e-9);
+    EXPECT_NEAR(there.clutter_density * std::pow(motion.scale, here.dof) / here.clutter_density, 1, 1e-9);
+  }
+}
+
 /// The same verdict for exchanged features and for a rotated, scaled, translated scene. `dimension` of the residual.
 inline void expect_invariant(const RelationTester& relation, const Feature& first, const Feature& second, int dimension,
                              double tolerance = 1e-9) {

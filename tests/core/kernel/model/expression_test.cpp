@@ -229,5 +229,14 @@ TEST(Range, ErrorsPointAtTheOffendingToken) {
               StartsWith("m.yaml:4:19: cannot compare a number and a length"));
 }
 
+TEST(Range, WhatHoldsOnNoMeshIsRefused) {
+  for (const char* text :
+       {"bb(O).a < r < bb(O).c", "bb(O).b < r < bb(w).c/2 - bb(O).c", "2*bb(w).a < r < bb(w).a", "bb(O).a < r < 0"})
+    EXPECT_THAT(range_error(text), HasSubstr("no value lies between")) << text;
+  for (const char* text :
+       {"bb(O).c < r < bb(O).a", "bb(w).a < r < bb(O).c", "bb(O).a < r < 100*bb(O).c", "0 < r < bb(w).c"})
+    EXPECT_EQ(range_error(text), "no error") << text;
+}
+
 }  // namespace
 }  // namespace toposcope

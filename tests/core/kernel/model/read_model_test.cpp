@@ -156,5 +156,37 @@ TEST_F(ReadModel, AFileThatCannotBeReadIsNamed) {
   }
 }
 
+TEST_F(ReadModel, MergeKeysGiveAFeatureWhatAnotherOneHas) {
+  const std::string text =
+      "schema: toposcope.model/1\nname: m\nfeatures:\n"
+      "  one: &ring {worksets: [convex], shape: circle, ranges: {radius: 0 < r < bb(O).a}, detectability: 0.5}\n"
+      "  two: {<<: *ring, detectability: 0.75}\n"
+      "  three:\n    <<: [*ring, {max_fit_error: bb(O).a/20}]\n";
+  const Model model = model_from_text(text, "m.yaml", nullptr);
+  ASSERT_EQ(model.features.size(), 3U);
+  EXPECT_EQ(model.features[1].shape.plugin, "circle");
+  EXPECT_EQ(model.features[1].detectability, 0.75);
+  EXPECT_EQ(model.features[1].ranges.size(), 1U);
+  EXPECT_EQ(model.features[2].detectability, 0.5);
+  EXPECT_TRUE(model.features[2].max_fit_error);
+  EXPECT_FALSE(model.features[0].max_fit_error);
+  const std::string bad =
+      "schema: toposcope.model/1\nname: m\nfeatures:\n  one: {<<: 3, worksets: [convex], shape: circle}\n";
+  EXPECT_THAT(error_of(bad), ::testing::HasSubstr("m.yaml:4:13: '<<' takes a mapping"));
+}
+
+TEST_F(ReadModel, AFeatureMayNameAlternativeShapes) {
+  std::string text = sound_model;
+  text.replace(text.find("shape: circle"), 13, "shape: [circle, {plugin: line-group, segments: 2}]");
+  const Model model = model_from_text(text, "m.yaml", &catalog_);
+  EXPECT_EQ(model.features[0].shape.plugin, "circle");
+  ASSERT_EQ(model.features[0].other_shapes.size(), 1U);
+  EXPECT_EQ(model.features[0].other_shapes[0].arguments[0].second, "2");
+  EXPECT_THAT(error_with("shape: circle", "shape: [circle, circle]"), HasSubstr("names shape 'circle' twice"));
+  EXPECT_THAT(error_with("shape: circle", "shape: [circle, cirkle]"), HasSubstr("did you mean 'circle'?"));
+  EXPECT_THAT(error_with("shape: circle", "shape: [circle, plane]"), HasSubstr("by shape 'plane', which is a surface"));
+  EXPECT_THAT(error_with("shape: circle", "shape: [circle]"), HasSubstr("has 1 entries"));
+}
+
 }  // namespace
 }  // namespace toposcope

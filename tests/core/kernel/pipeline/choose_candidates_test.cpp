@@ -31,9 +31,12 @@ struct ChooseCandidates : ::testing::Test, test::HandMadeRun {
 
   /// \param status  per feature of the job, per group
   GroupFits fits(WorkingSetGroups of, const std::vector<double>& evidence,
-                 std::vector<std::vector<GroupStatus>> status) const {
+                 const std::vector<std::vector<GroupStatus>>& status) const {
     GroupFits fits{std::move(of)};
-    fits.status = std::move(status);
+    for (const std::vector<GroupStatus>& of_feature : status) {
+      std::vector<GroupVerdict>& verdicts = fits.verdicts.emplace_back();
+      for (const GroupStatus each : of_feature) verdicts.push_back({each});
+    }
     fits.boxes.resize(evidence.size());
     for (std::size_t g = 0; g < evidence.size(); ++g) {
       FittedShape& shape = fits.shapes.emplace_back();
@@ -72,6 +75,26 @@ TEST_F(ChooseCandidates, TheBestStayAndTheRestIsCounted) {
   EXPECT_EQ(rod.count.poor_fit, 2U);
   EXPECT_EQ(rod.count.beaten, 1U);
   EXPECT_EQ(rod.count.kept, 2U);
+}
+
+TEST_F(ChooseCandidates, EachBoundSaysWhatItCostAndWhatCameNearest) {
+  for (int row = 0; row < 5; ++row) add_set(row);
+  model.features[0].ranges = {{"length", expression("3"), expression("bb(O).a/2"), {}}};
+  GroupFits all = fits(groups(), {5, 9, 7, 3, 2}, {{fitted, out_of_range, out_of_range, boxed_out, out_of_range}});
+  all.verdicts[0][1] = {out_of_range, 1, 9, 4.5};
+  all.verdicts[0][2] = {out_of_range, 1, 5, 4.5};
+  all.verdicts[0][3] = {boxed_out, 0, 2, 3};
+  all.verdicts[0][4] = {out_of_range, 1, 7, 4.5};
+  choose({{0}}, all);
+  const std::vector<BoundCount>& bounds = features.of_feature[0].count.bounds;
+  ASSERT_EQ(bounds.size(), 2U);
+  EXPECT_EQ(bounds[0].words, "3 < length");
+  EXPECT_EQ(bounds[0].groups, 1U);
+  EXPECT_EQ(bounds[0].nearest, 2);
+  EXPECT_EQ(bounds[1].words, "length < bb(O).a/2");
+  EXPECT_EQ(bounds[1].groups, 3U);
+  EXPECT_EQ(bounds[1].nearest, 5);
+  EXPECT_EQ(bounds[1].limit, 4.5);
 }
 
 TEST_F(ChooseCandidates, OfEqualEvidenceTheFirstStays) {

@@ -78,7 +78,9 @@ struct HandMadeRun {
 
   /// Of so many working sets.
   ModelFeature& add_feature(const std::string& name, std::size_t arity, std::shared_ptr<const ShapeFitter> fitter) {
-    stations.features.push_back({std::move(fitter), {}});
+    FeatureStation& station = stations.features.emplace_back();
+    station.fitter = std::move(fitter);
+    station.plugin = "mean";
     ModelFeature& feature = model.features.emplace_back();
     feature.name = name;
     feature.shape.plugin = "mean";

@@ -53,6 +53,24 @@ TEST(ResultSchema, HoldsForFoundMissingAndClassifiedFeatures) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(schema_faults("result", outcome.out), "") << command;
   }
+  write_text(folder / "m.yaml",
+             "schema: toposcope.model/1\nname: m\nfeatures:\n"
+             "  rim: {worksets: [convex], shape: circle, ranges: {radius: bb(O).a/4 < r < bb(O).a/2}}\n"
+             "  bottom: {worksets: [planar], shape: plane, max_fit_error: bb(O).c/50}\n"
+             "  none: {worksets: [planar], shape: plane, ranges: {extent: 2*bb(O).a < e}}\n"
+             "measures: {height: \"distance(rim, bottom)\", tilt: \"angle(rim, none)\"}\n");
+  const Outcome measured = toposcope("run " + cup + " --model " + (folder / "m.yaml").string() + " --json --measures " +
+                                     (folder / "m.csv").string() + " --features " + (folder / "f.csv").string());
+  EXPECT_EQ(schema_faults("result", measured.out), "");
+  const json measures = json::parse(measured.out)["measures"];
+  EXPECT_GT(measures["height"]["sd"], 0);
+  EXPECT_EQ(measures["tilt"]["why"], "'none' is missing");
+  EXPECT_EQ(read_text(folder / "m.csv").substr(0, 40), "mesh,height,height_sd,tilt,tilt_sd\n" + cup.substr(0, 5));
+  const std::string features = read_text(folder / "f.csv");
+  EXPECT_EQ(features.find("mesh,feature,shape,probability,fit_error,x,y,z,direction_x"), 0U);
+  EXPECT_NE(features.find(cup + ",rim,circle,"), std::string::npos);
+  EXPECT_EQ(std::count(features.begin(), features.end(), '\n'), 3) << "a head, and the two that were found";
+  EXPECT_NE(measured.out.find("\"bound\":\"2*bb(O).a < extent\""), std::string::npos);
   json broken = json::parse(toposcope("run " + cup + " --model cup --json").out);
   EXPECT_FALSE(broken["features"]["handleCon"]["present"].get<bool>());
   broken["features"]["rim"].erase("probability");

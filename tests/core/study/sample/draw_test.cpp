@@ -116,7 +116,8 @@ TEST_P(RandomSample, PageTellsDefaultsAndRanges) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RandomSample,
-                         testing::Values("cup", "tee", "wye", "cross", "elbow", "tricorner", "airplane"),
+                         testing::Values("cup", "tee", "wye", "cross", "elbow", "tricorner", "airplane", "plate",
+                                         "flange"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 TEST(DrawParameters, KeepsWhatIsGiven) {
