@@ -70,7 +70,7 @@ TEST_F(EvaluateCommand, BadUsageNamesThePlace) {
            {dataset("model: cupp\nmeshes: [{kind: cup, faces: [4000]}]\n", "cupp.yaml"), "cup"},
            {dataset("model: cup\nmeshes: [{kind: cup, faces: [4000]}]\n") + " --baseline absent.json", "absent.json"},
            {dataset("model: cup\nmeshes: [{kind: cup, faces: [4000], prest: mug}]\n", "prest.yaml"),
-            "4:40: unknown key 'prest' in 'meshes.0'; did you mean 'preset'?"},
+            "unknown key 'prest' in 'meshes.0'; did you mean 'preset'?"},
            {dataset("model: cup\nmeshes: [{files: '*.off', optionl: true}]\n", "optionl.yaml"),
             "did you mean 'optional'?"},
            {dataset("model: cup\nmeshes: [{kind: cup, faces: [4]}]\n", "few.yaml"), "meshes.0.faces.0' is 4"},
