@@ -13,6 +13,7 @@
 #include "result/result.h"
 #include "sample/sample.h"
 #include "support/plugins.h"
+#include "support/sanitized.h"
 #include "truth/judgement.h"
 
 namespace toposcope {
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 class FineMeshes : public ::testing::TestWithParam<Index> {};
 
 TEST_P(FineMeshes, HaveTheFeaturesOfCoarseOnes) {
+  SKIP_WHEN_SANITIZED(GetParam() > 50000, "50,000 faces take the same way");
   const PluginCatalog& catalog = test::host().catalog();
   const fs::path source = TOPOSCOPE_SOURCE_DIR;
   const Model model = read_model(source / "models/cup.yaml", &catalog);
