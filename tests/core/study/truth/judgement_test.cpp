@@ -24,7 +24,9 @@ class Judging : public ::testing::Test {
     ModelFeature& feature = model_.features.emplace_back();
     feature.name = name;
     feature.shape.plugin = shape;
-    stations_.features.push_back({test::shape(shape), {}});
+    FeatureStation& station = stations_.features.emplace_back();
+    station.fitter = test::shape(shape);
+    station.plugin = shape;
     analysis_.classes[0].features.push_back(static_cast<Index>(model_.features.size() - 1));
     FeatureReport& report = result_.features.emplace_back();
     report.name = name;
