@@ -5,6 +5,7 @@
 #include <string>
 
 #include "branch_and_bound.h"
+#include "by_elimination.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -25,18 +26,8 @@ class LeastError final : public Labeler {
     LabelingOutcome outcome;
     const std::size_t k_best = std::max<std::size_t>(1, request.k_best);
     BestLabelings best(k_best, std::max(0.0, request.within));
-    SoftNetwork network(problem, deadline);
-    if (network.infeasible()) {
-      outcome.optimal = true;
-      outcome.lower_bound = forbidden;
-    } else if (network.complete()) {
-      BranchAndBound search(problem, network, best, k_best, settings_, deadline, context);
-      outcome.optimal = search.search();
-      outcome.nodes = search.nodes();
-      outcome.lower_bound = search.lower_bound();
-      if (search.root_bound() < forbidden)
-        outcome.facts.push_back({"lower bound before the search", std::to_string(search.root_bound())});
-    }
+    if (!by_elimination(problem, {k_best, context.memory_budget(), deadline}, best, outcome))
+      search(problem, {best, k_best, deadline, context}, outcome);
     outcome.labelings = best.take();
     outcome.guarantee = guarantee(outcome, request);
     if (outcome.labelings.empty()) outcome.labelings = all_missing(problem);
@@ -46,6 +37,28 @@ class LeastError final : public Labeler {
   }
 
  private:
+  struct Means {
+    BestLabelings& best;
+    std::size_t k_best;
+    Deadline& deadline;
+    Context& context;
+  };
+
+  void search(const LabelingProblem& problem, const Means& means, LabelingOutcome& outcome) const {
+    SoftNetwork network(problem, means.deadline);
+    if (network.infeasible()) {
+      outcome.optimal = true;
+      outcome.lower_bound = forbidden;
+    } else if (network.complete()) {
+      BranchAndBound search(problem, network, means.best, means.k_best, settings_, means.deadline, means.context);
+      outcome.optimal = search.search();
+      outcome.nodes = search.nodes();
+      outcome.lower_bound = search.lower_bound();
+      if (search.root_bound() < forbidden)
+        outcome.facts.push_back({"lower bound before the search", std::to_string(search.root_bound())});
+    }
+  }
+
   static std::string guarantee(const LabelingOutcome& outcome, const LabelingRequest& request) {
     if (outcome.labelings.empty())
       return outcome.optimal ? "every labelling is forbidden: proven" : "stopped before any labelling was reached";

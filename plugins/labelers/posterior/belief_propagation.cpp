@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "log_sum.h"
+#include "toposcope/labeling/log_sum.h"
 
 namespace toposcope::posterior {
 

@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "factors.h"
-#include "watch.h"
+#include "toposcope/labeling/factor_graph.h"
+#include "toposcope/labeling/watch.h"
 
 namespace toposcope::posterior {
+
+using namespace factors;
 
 class BeliefPropagation {
  public:

@@ -5,10 +5,12 @@
 
 #include <vector>
 
-#include "factors.h"
-#include "watch.h"
+#include "toposcope/labeling/factor_graph.h"
+#include "toposcope/labeling/watch.h"
 
 namespace toposcope::posterior {
+
+using namespace factors;
 
 /// Positions among the graph's values, of finite cost; empty where none was found in `most_steps`.
 /// \throw OutOfTime

@@ -9,9 +9,9 @@
 
 #include "belief_propagation.h"
 #include "decode.h"
-#include "elimination.h"
 #include "search.h"
 #include "toposcope/labeling/crisp_search.h"
+#include "toposcope/labeling/elimination.h"
 
 namespace toposcope::posterior {
 namespace {
@@ -61,23 +61,32 @@ class Run {
     const std::string& method = settings_.method;
     if (method == "belief-propagation") return propagate();
     EliminationPlan plan;
+    bool feasible = false;
+    const auto memory = static_cast<double>(context_.memory_budget());
     if (method != "search") {
       plan = elimination_plan(graph_, settings_.max_entries + 1, watch_);
-      const bool feasible = plan.entries <= settings_.max_entries;
-      if (feasible && (method == "elimination" || plan.entries <= small)) return eliminate(plan);
+      feasible = plan.entries <= settings_.max_entries && plan.bytes() <= memory;
+      if (feasible && (method == "elimination" || plan.entries <= cheap_entries(graph_))) return eliminate(plan);
       if (method == "elimination") {
-        fact("elimination", "needs more than " + number(settings_.max_entries, "%.0f") + " table entries");
+        fact("elimination", plan.entries <= settings_.max_entries
+                                ? too_much(plan.bytes())
+                                : "needs more than " + number(settings_.max_entries, "%.0f") + " table entries");
         return propagate();
       }
     }
+    if (const double bytes = Search::bytes(graph_); bytes > std::min(memory, most_of_search)) {
+      fact("search", too_much(bytes));
+      return feasible ? eliminate(plan) : propagate();
+    }
     // Where evidence is concentrated the search is done long before a table of all combinations is filled: it may take
     // about as long as that, or where that cannot be done, most of the time.
-    const bool feasible = plan.entries <= settings_.max_entries;
     const std::uint64_t most_nodes = feasible ? static_cast<std::uint64_t>(plan.entries / entries_per_node) : unlimited;
     const Ending ending = search(most_nodes);
     if (ending != Ending::unfinished) return ending;
     return feasible ? eliminate(plan) : propagate();
   }
+
+  static std::string too_much(double bytes) { return "would need " + number(bytes / 1e6, "%.0f") + " MB"; }
 
   /// All is proven, and there is nothing to sum.
   void nothing() {
@@ -123,8 +132,11 @@ class Run {
     Elimination elimination(graph_, plan, watch_);
     const double least = elimination.minimize();
     if (!(least < forbidden)) return Ending::no_labeling;
-    alternatives_proven_ = elimination.k_best(
-        least, [&](const std::vector<Index>& at) { offer(at); }, best_, slack(), most_ties);
+    elimination.k_best(least, {.k = std::max<std::size_t>(1, request_.k_best),
+                               .slack = slack(),
+                               .offer = [&](const std::vector<Index>& at) { offer(at); },
+                               .list = best_});
+    alternatives_proven_ = true;
     outcome_.optimal = true;
     outcome_.nodes += graph_.variables();
     context_.progress(0.3);
@@ -204,7 +216,7 @@ class Run {
   }
 
   Ending propagate() {
-    if (!std::isfinite(outcome_.lower_bound)) outcome_.lower_bound = simple_bound();
+    if (!std::isfinite(outcome_.lower_bound)) outcome_.lower_bound = lower_bound(graph_) - slack();
     // The rest is for the estimate of the evidence and the labelling.
     Deadline deadline(sweeps_share * (request_.time_limit_s - deadline_.elapsed_s()), context_);
     Watch watch(deadline);
@@ -238,16 +250,9 @@ class Run {
     propagation.use(watch_);
     outcome_.log_evidence = propagation.bethe_log_evidence();
     outcome_.evidence_exactness = std::isnan(outcome_.log_evidence) ? Exactness::none : exactness;
-    const std::vector<Index> decoded = decode(graph_, marginals, most_ties, watch_);
+    const std::vector<Index> decoded = decode(graph_, marginals, most_decoded, watch_);
     if (!decoded.empty()) offer(decoded);
     return Ending::summed;
-  }
-
-  double simple_bound() {
-    double bound = graph_.constant - slack();
-    for (const std::vector<double>& unary : graph_.unary) bound += *std::min_element(unary.begin(), unary.end());
-    for (const Factor& factor : graph_.factors) bound += *std::min_element(factor.costs.begin(), factor.costs.end());
-    return bound;
   }
 
   /// From the graph's values to the problem's; those struck have probability 0.
@@ -261,10 +266,10 @@ class Run {
   }
 
   static constexpr std::uint64_t unlimited = std::uint64_t{1} << 60;
-  static constexpr double small = 1 << 15;        ///< entries: eliminated at once
-  static constexpr double entries_per_node = 30;  ///< that take as long as a node of the search
+  static constexpr double most_of_search = 1 << 29;  ///< bytes: what needs more does not end
+  static constexpr double entries_per_node = 30;     ///< that take as long as a node of the search
   static constexpr std::uint64_t quick_nodes = 200'000;
-  static constexpr std::uint64_t most_alternatives = 1'000'000, most_ties = 100'000;
+  static constexpr std::uint64_t most_alternatives = 1'000'000, most_decoded = 100'000;
   static constexpr double search_share = 0.6, sweeps_share = 0.8;
   static constexpr double converged_at = 1e-9;
   static constexpr double as_good_as_exact = 1e-9;  ///< part of the evidence left out

@@ -29,6 +29,13 @@ Search::Search(const FactorGraph& graph, const SearchTables& tables, double slac
     for (const Increment& increment : tables.after[depth]) touched_[depth][increment.depth] = 1;
 }
 
+double Search::bytes(const FactorGraph& graph) {
+  double values = 0;
+  for (const std::vector<double>& unary : graph.unary) values += static_cast<double>(unary.size());
+  const auto depths = static_cast<double>(graph.variables());
+  return sizeof(double) * 2 * (depths * values + depths * depths + entries(graph)) + depths * depths;
+}
+
 bool Search::best(const Offer& offer, const BestLabelings& list, std::uint64_t most_nodes) {
   most_nodes_ = nodes_ + most_nodes;
   std::copy(tables_.root.begin(), tables_.root.end(), costs_.begin());

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "search_tables.h"
-#include "watch.h"
+#include "toposcope/labeling/watch.h"
 
 namespace toposcope::posterior {
 
@@ -26,6 +26,9 @@ class Search {
  public:
   /// \param nodes  counted on
   Search(const FactorGraph& graph, const SearchTables& tables, double slack, Watch& watch, std::uint64_t& nodes);
+
+  /// Bytes that a search and its tables take, about.
+  static double bytes(const FactorGraph& graph);
 
   /// Offers labellings until no other can cost at most the limit of `list`, to which the offers go.
   /// \return false when that took more than `most_nodes` \throw OutOfTime

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "factors.h"
-#include "watch.h"
+#include "toposcope/labeling/factor_graph.h"
+#include "toposcope/labeling/watch.h"
 
 namespace toposcope::posterior {
+
+using namespace factors;
 
 /// Four chains of minima at a time: the processor need not wait for one.
 inline double least_of(const double* costs, std::size_t count) {

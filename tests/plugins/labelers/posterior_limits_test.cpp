@@ -72,6 +72,30 @@ TEST(Posterior, SumsFromCoarseToFineHoldWhatTheyState) {
   }
 }
 
+// A table of all values for each variable: half a gigabyte is more than a search that will not end is given.
+TEST(Posterior, ASearchThatNeedsTooMuchMemoryIsNotBegun) {
+  const Index side = 60;
+  LabelingProblem grid;
+  for (Index v = 0; v < side * side; ++v) {
+    LabelingVariable& variable = grid.variables.emplace_back();
+    variable.name = "x" + std::to_string(v);
+    variable.optional = false;
+    variable.costs = {0, 0.1 * (v % 3)};
+  }
+  for (Index v = 0; v < side * side; ++v)
+    for (const Index w : {v % side + 1 < side ? v + 1 : v, v + side}) {
+      if (w == v || w >= side * side) continue;
+      LabelingConstraint constraint = test::empty_constraint(grid, {v, w});
+      constraint.violations.clear();
+      constraint.costs = {0, 0.5, 0.5, 0};
+      grid.constraints.push_back(std::move(constraint));
+    }
+  const LabelingOutcome outcome = test::solve_posterior(grid, {}, {.time_limit_s = 20});
+  EXPECT_EQ(test::fact(outcome, "search").substr(0, 10), "would need") << outcome.guarantee;
+  EXPECT_EQ(test::fact(outcome, "method"), "belief propagation");
+  EXPECT_EQ(outcome.posterior_exactness, Exactness::approximate);
+}
+
 TEST(Posterior, SameAnswerEveryRun) {
   const LabelingProblem problem = large(6, 9, 9);
   for (const char* method : {"auto", "elimination", "search", "belief-propagation"}) {

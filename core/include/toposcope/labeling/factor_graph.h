@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "toposcope/labeling/tools.h"
-#include "watch.h"
+#include "toposcope/labeling/watch.h"
 
-namespace toposcope::posterior {
+namespace toposcope::factors {
 
 /// Costs over two or more variables, row-major, the last of the scope fastest.
 struct Factor {
@@ -31,6 +31,12 @@ struct FactorGraph {
   std::size_t domain(Index variable) const { return values[variable].size(); }
 };
 
+/// Entries of all tables, and unary costs.
+double entries(const FactorGraph& graph);
+
+/// No labelling costs less, but for rounding: the least of every table, summed.
+double lower_bound(const FactorGraph& graph);
+
 /// Takes a labelling as positions among the graph's values.
 using Offer = std::function<void(const std::vector<Index>&)>;
 
@@ -44,4 +50,4 @@ FactorGraph merged(const FactorGraph& graph, Watch& watch);
 /// \pre the problem outlives the graph \throw OutOfTime
 FactorGraph factor_graph(const LabelingProblem& problem, Watch& watch);
 
-}  // namespace toposcope::posterior
+}  // namespace toposcope::factors

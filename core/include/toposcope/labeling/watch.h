@@ -5,7 +5,7 @@
 
 #include "toposcope/labeling/tools.h"
 
-namespace toposcope::posterior {
+namespace toposcope::factors {
 
 /// Thrown where time is out; caught where there is something to fall back on.
 struct OutOfTime {};
@@ -29,4 +29,4 @@ class Watch {
   std::size_t work_ = interval;
 };
 
-}  // namespace toposcope::posterior
+}  // namespace toposcope::factors

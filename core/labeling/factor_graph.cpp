@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "factors.h"
+#include "toposcope/labeling/factor_graph.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "toposcope/geometry/large_array.h"
 
-namespace toposcope::posterior {
+namespace toposcope::factors {
 namespace {
 
 /// Makes a problem's factor graph. Large tables are read in place where nothing is to be changed in them.
@@ -70,27 +71,29 @@ class GraphBuilder {
 
   /// Strikes the values that no entry of finite cost of some constraint has (generalised arc consistency).
   void strike_unsupported() {
-    std::vector<bool> due(problem_.constraints.size(), true);
-    for (bool removed = true; removed;) {
-      removed = false;
-      for (Index c = 0; c < problem_.constraints.size(); ++c) {
-        if (!due[c]) continue;
-        due[c] = false;
-        const LabelingConstraint& constraint = problem_.constraints[c];
-        const std::vector<std::size_t> stride = strides(constraint);
-        for (std::size_t k = 0; k < stride.size(); ++k) {
-          for (const Index v : constraint.scope)
-            if (graph_.values[v].empty()) return;
-          std::vector<Index>& left = graph_.values[constraint.scope[k]];
-          const std::size_t before = left.size();
-          std::erase_if(left, [&](Index value) { return !supported(constraint, stride, k, value); });
-          if (left.size() == before) continue;
-          removed = true;
-          for (Index other = 0; other < problem_.constraints.size(); ++other) {
-            const auto& scope = problem_.constraints[other].scope;
-            if (std::find(scope.begin(), scope.end(), constraint.scope[k]) != scope.end()) due[other] = true;
+    std::vector<std::vector<Index>> of(problem_.variables.size());  // constraints, by variable
+    std::vector<Index> due(problem_.constraints.size());
+    for (Index c = 0; c < due.size(); ++c) {
+      due[c] = c;
+      for (const Index v : problem_.constraints[c].scope) of[v].push_back(c);
+    }
+    std::vector<char> waits(due.size(), 1);
+    for (std::size_t next = 0; next < due.size(); ++next) {
+      waits[due[next]] = 0;
+      const LabelingConstraint& constraint = problem_.constraints[due[next]];
+      const std::vector<std::size_t> stride = strides(constraint);
+      for (std::size_t k = 0; k < stride.size(); ++k) {
+        for (const Index v : constraint.scope)
+          if (graph_.values[v].empty()) return;
+        std::vector<Index>& left = graph_.values[constraint.scope[k]];
+        const std::size_t before = left.size();
+        std::erase_if(left, [&](Index value) { return !supported(constraint, stride, k, value); });
+        if (left.size() == before) continue;
+        for (const Index other : of[constraint.scope[k]])
+          if (!waits[other]) {
+            waits[other] = 1;
+            due.push_back(other);
           }
-        }
       }
     }
   }
@@ -127,38 +130,49 @@ class GraphBuilder {
     graph_.factors.push_back(std::move(factor));
   }
 
+  /// Per pair of variables, ascending: factors over them, and over them in reverse.
+  using Pairs = std::map<std::pair<Index, Index>, std::pair<std::vector<std::size_t>, std::vector<std::size_t>>>;
+
   /// Tables where none forbids already what the exclusions do: those of meshes do.
   void add_exclusions() {
-    const std::size_t tables = graph_.factors.size();
+    Pairs tables;
+    std::vector<Index> choosing;
     for (Index v = 0; v < graph_.variables(); ++v)
-      for (Index w = v + 1; w < graph_.variables(); ++w) {
-        if (problem_.variables[v].candidates.empty() || problem_.variables[w].candidates.empty()) continue;
-        std::vector<const Factor*> same, turned;
-        const std::vector<Index> pair{v, w}, reversed{w, v};
-        for (std::size_t f = 0; f < tables; ++f) {
-          if (graph_.factors[f].scope == pair) same.push_back(&graph_.factors[f]);
-          if (graph_.factors[f].scope == reversed) turned.push_back(&graph_.factors[f]);
+      if (!problem_.variables[v].candidates.empty()) choosing.push_back(v);
+    if (!choosing.empty())
+      for (std::size_t f = 0; f < graph_.factors.size(); ++f)
+        if (const std::vector<Index>& scope = graph_.factors[f].scope; scope.size() == 2) {
+          auto& both = tables[std::minmax(scope[0], scope[1])];
+          (scope[0] < scope[1] ? both.first : both.second).push_back(f);
         }
-        const std::size_t height = graph_.domain(v), width = graph_.domain(w);
-        const auto forbids = [](std::size_t entry) {
-          return [entry](const Factor* factor) { return !(factor->costs[entry] < forbidden); };
-        };
-        Factor exclusion{{v, w}, {}};
-        for (std::size_t i = 0; i < height; ++i) {
-          for (std::size_t j = 0; j < width; ++j) {
-            if (!excluded(problem_, v, graph_.values[v][i], w, graph_.values[w][j]) ||
-                std::any_of(same.begin(), same.end(), forbids(i * width + j)) ||
-                std::any_of(turned.begin(), turned.end(), forbids(j * height + i)))
-              continue;
-            if (exclusion.own.empty()) exclusion.own.assign(height * width, 0.0);
-            exclusion.own[i * width + j] = forbidden;
-          }
-          watch_.poll(4 * width + tables / (i + 1));
-        }
-        if (exclusion.own.empty()) continue;
-        exclusion.costs = exclusion.own;
-        graph_.factors.push_back(std::move(exclusion));
+    for (std::size_t i = 0; i < choosing.size(); ++i)
+      for (std::size_t j = i + 1; j < choosing.size(); ++j) add_exclusion(choosing[i], choosing[j], tables);
+  }
+
+  void add_exclusion(Index v, Index w, const Pairs& tables) {
+    static const std::vector<std::size_t> none;
+    const auto at = tables.find({v, w});
+    const auto& same = at == tables.end() ? none : at->second.first;
+    const auto& turned = at == tables.end() ? none : at->second.second;
+    const std::size_t height = graph_.domain(v), width = graph_.domain(w);
+    const auto forbids = [&](std::size_t entry) {
+      return [&, entry](std::size_t f) { return !(graph_.factors[f].costs[entry] < forbidden); };
+    };
+    Factor exclusion{{v, w}, {}};
+    for (std::size_t i = 0; i < height; ++i) {
+      for (std::size_t j = 0; j < width; ++j) {
+        if (!excluded(problem_, v, graph_.values[v][i], w, graph_.values[w][j]) ||
+            std::any_of(same.begin(), same.end(), forbids(i * width + j)) ||
+            std::any_of(turned.begin(), turned.end(), forbids(j * height + i)))
+          continue;
+        if (exclusion.own.empty()) exclusion.own.assign(height * width, 0.0);
+        exclusion.own[i * width + j] = forbidden;
       }
+      watch_.poll(4 * width);
+    }
+    if (exclusion.own.empty()) return;
+    exclusion.costs = exclusion.own;
+    graph_.factors.push_back(std::move(exclusion));
   }
 
   const LabelingProblem& problem_;
@@ -168,6 +182,20 @@ class GraphBuilder {
 };
 
 }  // namespace
+
+double entries(const FactorGraph& graph) {
+  double sum = 0;
+  for (const std::vector<double>& unary : graph.unary) sum += static_cast<double>(unary.size());
+  for (const Factor& factor : graph.factors) sum += static_cast<double>(factor.costs.size());
+  return sum;
+}
+
+double lower_bound(const FactorGraph& graph) {
+  double bound = graph.constant;
+  for (const std::vector<double>& unary : graph.unary) bound += *std::min_element(unary.begin(), unary.end());
+  for (const Factor& factor : graph.factors) bound += *std::min_element(factor.costs.begin(), factor.costs.end());
+  return bound;
+}
 
 void add_reordered(const FactorGraph& graph, const Factor& factor, const std::vector<Index>& scope,
                    std::vector<double>& table, Watch& watch) {
@@ -200,17 +228,19 @@ void add_reordered(const FactorGraph& graph, const Factor& factor, const std::ve
 
 FactorGraph merged(const FactorGraph& graph, Watch& watch) {
   FactorGraph made{graph.values, graph.unary, {}, graph.constant, graph.impossible};
+  std::map<std::vector<Index>, std::size_t> of;  // by the scope, ascending
   for (const Factor& factor : graph.factors) {
-    const auto same = std::find_if(made.factors.begin(), made.factors.end(), [&](const Factor& other) {
-      return std::is_permutation(other.scope.begin(), other.scope.end(), factor.scope.begin(), factor.scope.end());
-    });
-    if (same == made.factors.end()) {
+    std::vector<Index> scope = factor.scope;
+    std::sort(scope.begin(), scope.end());
+    const auto [at, first] = of.try_emplace(std::move(scope), made.factors.size());
+    if (first) {
       made.factors.push_back({factor.scope, factor.costs});
       continue;
     }
-    if (same->own.empty()) same->own.assign(same->costs.begin(), same->costs.end());
-    add_reordered(graph, factor, same->scope, same->own, watch);
-    same->costs = same->own;
+    Factor& same = made.factors[at->second];
+    if (same.own.empty()) same.own.assign(same.costs.begin(), same.costs.end());
+    add_reordered(graph, factor, same.scope, same.own, watch);
+    same.costs = same.own;
   }
   return made;
 }
@@ -219,4 +249,4 @@ FactorGraph factor_graph(const LabelingProblem& problem, Watch& watch) {
   return GraphBuilder(problem, watch).build();
 }
 
-}  // namespace toposcope::posterior
+}  // namespace toposcope::factors

@@ -7,7 +7,7 @@
 
 #include "toposcope/labeling/tools.h"
 
-namespace toposcope::posterior {
+namespace toposcope::factors {
 
 /// -log of the sum of exp(-cost), shifted by the least cost so that nothing that counts underflows.
 inline double soft_min(const double* costs, std::size_t count) {
@@ -26,4 +26,4 @@ inline void normalize(const double* costs, std::size_t count, double* probabilit
   for (std::size_t i = 0; i < count; ++i) probabilities[i] /= sum;
 }
 
-}  // namespace toposcope::posterior
+}  // namespace toposcope::factors

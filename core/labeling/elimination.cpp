@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "elimination.h"
+#include "toposcope/labeling/elimination.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "log_sum.h"
 #include "toposcope/geometry/large_array.h"
+#include "toposcope/labeling/log_sum.h"
 
-namespace toposcope::posterior {
+namespace toposcope::factors {
 
 Elimination::Elimination(const FactorGraph& graph, const EliminationPlan& plan, Watch& watch)
     : graph_(graph), watch_(watch), order_(plan.order), buckets_(graph.variables()) {
   std::vector<std::size_t> rank(graph.variables());
   for (std::size_t i = 0; i < order_.size(); ++i) rank[order_[i]] = i;
+  // Variables of one value bind nothing: a table goes to the first of the others.
   const auto earliest = [&](const std::vector<Index>& scope) {
-    return *std::min_element(scope.begin(), scope.end(), [&](Index a, Index b) { return rank[a] < rank[b]; });
+    return *std::min_element(scope.begin(), scope.end(), [&](Index a, Index b) {
+      return std::pair(graph.domain(a) < 2, rank[a]) < std::pair(graph.domain(b) < 2, rank[b]);
+    });
   };
   for (Index v = 0; v < graph.variables(); ++v) {
     Bucket& bucket = buckets_[v];
@@ -60,25 +63,6 @@ std::vector<std::vector<double>> Elimination::marginals() {
     normalize(costs.data(), costs.size(), made[bucket.variable].data());
   }
   return made;
-}
-
-/// What `k_best` takes along on its way down.
-struct Elimination::Listing {
-  const Offer& offer;
-  const BestLabelings& list;
-  double slack;
-  std::size_t most_nodes, nodes = 0;
-  std::vector<Index> at;
-  std::vector<std::vector<std::pair<double, Index>>> children;
-
-  double limit() const { return list.limit() + slack; }
-};
-
-bool Elimination::k_best(double least, const Offer& offer, const BestLabelings& list, double slack,
-                         std::size_t most_nodes) {
-  Listing listing{offer, list, slack, most_nodes, 0, std::vector<Index>(buckets_.size(), 0), {}};
-  listing.children.resize(buckets_.size());
-  return descend(order_.size(), least, listing);
 }
 
 // Strides of the variables of `scope` (ascending) in a table over it; 0 for a variable that is not of it.
@@ -167,30 +151,4 @@ void Elimination::project(const Bucket& bucket, const std::vector<Index>& scope,
     costs[e] = least_[e] < forbidden ? least_[e] - std::log(sums_[e]) : forbidden;
 }
 
-bool Elimination::descend(std::size_t left, double cost, Listing& listing) {
-  if (left == 0) {
-    listing.offer(listing.at);
-    return true;
-  }
-  const Bucket& bucket = buckets_[order_[left - 1]];
-  std::size_t row = 0;
-  for (const Index w : bucket.bound) row = row * graph_.domain(w) + listing.at[w];
-  const std::size_t width = graph_.domain(bucket.variable);
-  auto& here = listing.children[left - 1];
-  here.clear();
-  for (Index i = 0; i < width; ++i) {
-    const double excess = bucket.table[row * width + i] - bucket.message[row];
-    if (cost + excess < forbidden) here.emplace_back(cost + excess, i);
-  }
-  std::sort(here.begin(), here.end());
-  for (std::size_t i = 0; i < here.size() && here[i].first <= listing.limit(); ++i) {
-    watch_.poll(width);
-    // The first path down is always gone to its end.
-    if (++listing.nodes > listing.most_nodes && listing.nodes > buckets_.size()) return false;
-    listing.at[bucket.variable] = here[i].second;
-    if (!descend(left - 1, here[i].first, listing)) return false;
-  }
-  return true;
-}
-
-}  // namespace toposcope::posterior
+}  // namespace toposcope::factors
