@@ -7,7 +7,7 @@
 # make packages   the Debian packages
 # make evaluate   measure: made and real meshes against their truth, tables in evaluation/
 # make screenshots   pictures of reports for the docs
-# make fuzz   fuzz the mesh readers, FUZZ_SECONDS for each format
+# make fuzz   fuzz all that reads files, FUZZ_SECONDS for each format (FUZZ="model cfn": these alone)
 PRESET ?= release
 BUILD := build/$(PRESET)
 TOPOSCOPE := $(BUILD)/bin/toposcope
@@ -104,12 +104,13 @@ fuzz: deps
 	@cmake --preset fuzz > build/fuzz.log 2>&1 || { cat build/fuzz.log; exit 1; }
 	cmake --build build/fuzz -j $(JOBS) --target fuzz
 	@mkdir -p build/fuzz/findings
-	build/fuzz/bin/make_corpus build/fuzz/seeds
-	@set -e; for format in ply obj stl off gltf; do \
+	build/fuzz/bin/make_corpus build/fuzz/seeds $(CURDIR)
+	@set -e; for format in $(or $(FUZZ),$$(cat build/fuzz/formats)); do \
 	  mkdir -p build/fuzz/corpus/$$format; \
+	  words=; if test -e build/fuzz/seeds/$$format.dict; then words=-dict=build/fuzz/seeds/$$format.dict; fi; \
 	  echo "fuzz_$$format, $(FUZZ_SECONDS) s"; \
 	  build/fuzz/bin/fuzz_$$format -max_total_time=$(FUZZ_SECONDS) -rss_limit_mb=512 -timeout=5 -max_len=16384 \
-	    -print_final_stats=1 -verbosity=0 -artifact_prefix=build/fuzz/findings/$$format- \
+	    -print_final_stats=1 -verbosity=0 -artifact_prefix=build/fuzz/findings/$$format- $$words \
 	    build/fuzz/corpus/$$format build/fuzz/seeds/$$format; \
 	done
 

@@ -1,34 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// make_corpus FOLDER: writes good and nearly good files of each format to FOLDER/<format>, as seeds for the fuzzers.
+// make_corpus FOLDER SOURCE: writes good and nearly good files of each format to FOLDER/<format>, as seeds for the
+// fuzzers. SOURCE is the project's folder.
+#include <algorithm>
 #include <bit>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "io/mesh_io.h"
+#include "corpus.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-class Corpus {
- public:
-  explicit Corpus(fs::path folder) : folder_(std::move(folder)) { fs::create_directories(folder_); }
-  void add(const std::string& content) {
-    std::ofstream(folder_ / ("seed" + std::to_string(count_++)), std::ios::binary) << content;
-    // Cut short and with CR LF: most readers have a branch of their own for them.
-    std::ofstream(folder_ / ("seed" + std::to_string(count_++)), std::ios::binary)
-        << content.substr(0, content.size() * 3 / 4);
-    std::string other = content;
-    for (std::size_t i = other.find('\n'); i != other.npos; i = other.find('\n', i + 2)) other.insert(i, 1, '\r');
-    std::ofstream(folder_ / ("seed" + std::to_string(count_++)), std::ios::binary) << other;
-  }
-
- private:
-  fs::path folder_;
-  int count_ = 0;
-};
+using toposcope::fuzz::Corpus;
 
 template <class T>
 std::string bytes(std::initializer_list<T> values, std::endian order = std::endian::little) {
@@ -153,8 +137,8 @@ void add_gltf(Corpus corpus) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: make_corpus FOLDER\n";
+  if (argc != 3) {
+    std::cerr << "usage: make_corpus FOLDER SOURCE\n";
     return 2;
   }
   const fs::path folder = argv[1];
@@ -163,4 +147,5 @@ int main(int argc, char** argv) {
   add_stl(Corpus(folder / "stl"));
   add_off(Corpus(folder / "off"));
   add_gltf(Corpus(folder / "gltf"));
+  toposcope::fuzz::add_documents(folder, argv[2]);
 }

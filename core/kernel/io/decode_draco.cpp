@@ -28,7 +28,8 @@ std::optional<std::size_t> announced(std::string_view compressed) {
   draco::DracoHeader header;
   if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) return std::nullopt;
   if (header.encoder_type != draco::TRIANGULAR_MESH || header.version_major != 2) return std::nullopt;
-  buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+  buffer.set_bitstream_version(
+      static_cast<std::uint16_t>(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor)));
   if ((header.flags & METADATA_FLAG_MASK) != 0) {
     draco::GeometryMetadata metadata;
     if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata)) return std::nullopt;

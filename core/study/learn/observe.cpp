@@ -92,7 +92,7 @@ class Observer {
     double least = 1;
     for (const Index candidate : analysis_.features.of_feature[f].constructed) {
       const ConstructedFeature& made = analysis_.features.all[candidate];
-      const double excess = excess_of(made.shape, *made.fitter, known, scale_, run_.stations);
+      const double excess = excess_of(made.shape, *made.fitter, known, scale_);
       if (!(excess <= least)) continue;
       least = excess;
       best = &made;

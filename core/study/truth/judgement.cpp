@@ -54,8 +54,7 @@ double ends_distance(const FittedShape& shape, const std::vector<TruthGroup>& gr
 
 class Judge {
  public:
-  Judge(const Stations& stations, const Limits& limits, const Judgement& scale)
-      : stations_(stations), limits_(limits), scale_(scale) {}
+  Judge(const Limits& limits, const Judgement& scale) : limits_(limits), scale_(scale) {}
 
   /// \param fitter  of the reported shape
   FeatureJudgement feature(const FeatureReport& report, const ShapeFitter& fitter, const TruthFeature& truth) const {
@@ -107,7 +106,6 @@ class Judge {
   }
 
  private:
-  const Stations& stations_;
   const Limits& limits_;
   const Judgement& scale_;
 };
@@ -136,9 +134,9 @@ std::size_t Judgement::right() const {
 }
 
 double excess_of(const FittedShape& shape, const ShapeFitter& fitter, const TruthFeature& truth, const Judgement& scale,
-                 const Stations& stations, const Limits& limits) {
+                 const Limits& limits) {
   FeatureJudgement judged;
-  Judge(stations, limits, scale).measure(shape, fitter, truth, judged);
+  Judge(limits, scale).measure(shape, fitter, truth, judged);
   return judged.excess;
 }
 
@@ -148,7 +146,7 @@ Judgement judge(const Result& result, const Analysis& analysis, const Model& mod
   Judgement scale;
   scale.mean_edge = truth.mean_edge.value_or(result.mean_edge);
   scale.diagonal = truth.diagonal.value_or(result.box.diagonal());
-  const Judge judge(stations, limits, scale);
+  const Judge judge(limits, scale);
 
   // A renaming is of the posed features alone; all others keep their names.
   Judgement best;

@@ -52,7 +52,7 @@ struct Judgement {
 
 /// What a feature's shape is off over its limit: right up to 1. \param scale  its mean edge and diagonal
 double excess_of(const FittedShape& shape, const ShapeFitter& fitter, const TruthFeature& truth, const Judgement& scale,
-                 const Stations& stations, const Limits& limits = {});
+                 const Limits& limits = {});
 
 /// Compares a result with the truth. Names that the model cannot tell apart may change places all at once, as a
 /// renaming of the model allows: port and starboard of an airplane, the rims of a fitting.

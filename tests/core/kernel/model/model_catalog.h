@@ -35,7 +35,6 @@ class ModelCatalog {
   }
   PluginCatalog read() const { return PluginCatalog({{folder_.path, true}}); }
 
- private:
   void add(PluginKind kind, const std::string& id, std::uint32_t min_arity, std::uint32_t max_arity,
            std::vector<OptionRow> arguments, std::vector<ProvidedRow> provides) const {
     PluginManifest manifest;
@@ -56,6 +55,7 @@ class ModelCatalog {
     folder_.write(id + library_suffix(), "");
   }
 
+ private:
   PluginFolderFixture folder_;
 };
 
