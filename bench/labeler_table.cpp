@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// least-error beside toulbar2 on problems shaped like those of meshes: the table of docs/theory/labelers.md.
+// least-error beside toulbar2 on problems shaped like those of meshes, auctions and warehouses: the table of
+// docs/measured/labelers.md.
 
 #include <fmt/format.h>
 
@@ -9,10 +10,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <regex>
 
 #include "formats/problem_io.h"
+#include "support/classic_problems.h"
 #include "support/planted_problems.h"
 #include "support/plugins.h"
 #include "table/table.h"
@@ -49,8 +52,8 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-const std::vector<Column> columns = {"costs",
-                                     "features x candidates",
+const std::vector<Column> columns = {"kind",
+                                     "size",
                                      "proven",
                                      {"median ms", "ms", "ms", "{:.1f}"},
                                      {"worst ms", "ms", "ms", "{:.1f}"},
@@ -60,11 +63,17 @@ const std::vector<Column> columns = {"costs",
                                      {"worst ms", "ms", "ms", "{:.0f}"},
                                      "optima that differ"};
 
-void row(const test::PlantedKind& kind, int seeds, double limit_s) {
+struct Kind {
+  const char* name;
+  std::string size;
+  std::function<LabelingProblem(std::uint64_t seed)> make;
+};
+
+void row(const Kind& kind, int seeds, double limit_s) {
   std::vector<double> ours, theirs, gaps;
   int proven = 0, rival_proven = 0, differ = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const LabelingProblem problem = test::planted_problem(kind, static_cast<std::uint64_t>(seed));
+    const LabelingProblem problem = kind.make(static_cast<std::uint64_t>(seed));
     const auto start = std::chrono::steady_clock::now();
     const LabelingOutcome outcome =
         test::labeler("least-error")->solve(problem, {.k_best = 1, .time_limit_s = limit_s}, test::context());
@@ -77,11 +86,10 @@ void row(const test::PlantedKind& kind, int seeds, double limit_s) {
     differ += outcome.optimal && rival.cost && std::abs(*rival.cost - outcome.labelings[0].cost) > 1e-3;
   }
   const auto worst = [](const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); };
-  fmt::print("{}", markdown_row(columns, {kind.structured ? "planted" : "random",
-                                          fmt::format("{} x {}", kind.features, kind.candidates),
-                                          fmt::format("{} of {}", proven, seeds), 1e3 * median(ours), 1e3 * worst(ours),
-                                          worst(gaps), fmt::format("{} of {}", rival_proven, seeds),
-                                          1e3 * median(theirs), 1e3 * worst(theirs), std::to_string(differ)}));
+  fmt::print("{}",
+             markdown_row(columns, {kind.name, kind.size, fmt::format("{} of {}", proven, seeds), 1e3 * median(ours),
+                                    1e3 * worst(ours), worst(gaps), fmt::format("{} of {}", rival_proven, seeds),
+                                    1e3 * median(theirs), 1e3 * worst(theirs), std::to_string(differ)}));
   std::fflush(stdout);
 }
 
@@ -96,6 +104,18 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   fmt::print("{}", markdown_header(columns));
   for (const bool structured : {true, false})
-    for (const auto& [features, candidates] : {std::pair<Index, Index>{8, 20}, {12, 50}, {20, 60}, {40, 60}})
-      row({.features = features, .candidates = candidates, .structured = structured}, seeds, limit_s);
+    for (const auto& [features, candidates] : {std::pair<Index, Index>{8, 20}, {12, 50}, {20, 60}, {40, 60}}) {
+      const test::PlantedKind kind{.features = features, .candidates = candidates, .structured = structured};
+      row({structured ? "planted" : "random", fmt::format("{} x {}", features, candidates),
+           [&](std::uint64_t seed) { return test::planted_problem(kind, seed); }},
+          seeds, limit_s);
+    }
+  for (const auto& [goods, bids] : {std::pair<Index, Index>{20, 60}, {40, 100}, {60, 150}, {80, 200}})
+    row({"auction", fmt::format("{} goods, {} bids", goods, bids),
+         [&](std::uint64_t seed) { return test::auction(goods, bids, seed); }},
+        seeds, limit_s);
+  for (const auto& [places, stores] : {std::pair<Index, Index>{15, 30}, {25, 50}, {40, 80}})
+    row({"warehouses", fmt::format("{} for {} stores", places, stores),
+         [&](std::uint64_t seed) { return test::warehouses(places, stores, seed); }},
+        seeds, limit_s);
 }

@@ -245,6 +245,32 @@ FactorGraph merged(const FactorGraph& graph, Watch& watch) {
   return made;
 }
 
+FactorGraph skeleton(const LabelingProblem& problem) {
+  FactorGraph graph;
+  graph.unary.resize(problem.variables.size());
+  graph.values.resize(problem.variables.size());
+  std::vector<Index> choosing;
+  for (Index v = 0; v < problem.variables.size(); ++v) {
+    const LabelingVariable& variable = problem.variables[v];
+    for (Index value = 0; value < variable.domain(); ++value)
+      if (variable.costs[value] < forbidden) graph.values[v].push_back(value);
+    graph.unary[v].resize(graph.values[v].size());
+    if (!variable.candidates.empty()) choosing.push_back(v);
+  }
+  for (const LabelingConstraint& constraint : problem.constraints)
+    if (constraint.scope.size() > 1) graph.factors.push_back({constraint.scope, constraint.costs});
+  const auto conflict = [&](Index v, Index w) {
+    for (const Index a : problem.variables[v].candidates)
+      for (const Index b : problem.variables[w].candidates)
+        if (problem.conflict(a, b)) return true;
+    return false;
+  };
+  for (std::size_t i = 0; i < choosing.size(); ++i)
+    for (std::size_t j = i + 1; j < choosing.size(); ++j)
+      if (conflict(choosing[i], choosing[j])) graph.factors.push_back({{choosing[i], choosing[j]}, {}});
+  return graph;
+}
+
 FactorGraph factor_graph(const LabelingProblem& problem, Watch& watch) {
   return GraphBuilder(problem, watch).build();
 }

@@ -201,7 +201,7 @@ int BranchAndBound::choose_value(int variable) {
 }
 
 void BranchAndBound::offer() {
-  for (int v = 0; v < network_.variables(); ++v)
+  for (int v = 0; v < static_cast<int>(labeling_.values.size()); ++v)
     labeling_.values[static_cast<std::size_t>(v)] = network_.value_of(v, network_.values(v)[0]);
   labeling_.cost = cost_of(problem_, labeling_.values);
   const bool first = best_.labelings().empty() || labeling_.cost < best_.labelings().front().cost;

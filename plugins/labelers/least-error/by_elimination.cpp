@@ -11,6 +11,10 @@ namespace {
 /// \return false where the search is to be asked
 bool eliminate(const LabelingProblem& problem, const Limits& limits, BestLabelings& best, LabelingOutcome& outcome) {
   factors::Watch watch(limits.deadline);
+  const factors::FactorGraph outline = factors::skeleton(problem);
+  if (factors::elimination_plan(outline, factors::cheap_entries(outline) + 1, watch).entries >
+      factors::cheap_entries(outline))
+    return false;
   const factors::FactorGraph graph = factors::factor_graph(problem, watch);
   if (graph.impossible) return true;
   const double most = factors::cheap_entries(graph);

@@ -6,6 +6,8 @@
 
 #include "branch_and_bound.h"
 #include "by_elimination.h"
+#include "toposcope/labeling/crisp_search.h"
+#include "toposcope/labeling/greedy_labeling.h"
 #include "toposcope/plugin.h"
 
 namespace {
@@ -45,6 +47,10 @@ class LeastError final : public Labeler {
   };
 
   void search(const LabelingProblem& problem, const Means& means, LabelingOutcome& outcome) const {
+    // To have one at any time, and a cost to stay below.
+    if (const auto values =
+            greedy_labeling(problem, {.order = detectability_order(problem), .rank = {}}, means.deadline))
+      means.best.offer({*values, cost_of(problem, *values)});
     SoftNetwork network(problem, means.deadline);
     if (network.infeasible()) {
       outcome.optimal = true;

@@ -82,9 +82,20 @@ void SoftNetwork::undo() {
   now_ = mark.stamp;
 }
 
+double SoftNetwork::bound(Cost constant) const {
+  if (step_ > 0) return to_cost(step_ * (std::ceil(constant / step_) - exact_error));
+  return to_cost(static_cast<double>(constant) - error_);
+}
+
 Cost SoftNetwork::cutoff(double limit, bool inclusive) const {
-  double units = (limit - offset_) * scale_ + error_;
-  units = inclusive ? std::floor(units) + 1 : std::ceil(units - 2e-3 * (error_ < 1));
+  double units = (limit - offset_) * scale_;
+  if (step_ > 0) {
+    // A labelling below the limit is below it by a whole step.
+    const double steps = units / step_;
+    units = step_ * (inclusive ? std::floor(steps + exact_error) : std::ceil(steps - exact_error) - 1) + 1;
+  } else {
+    units = inclusive ? std::floor(units + error_) + 1 : std::ceil(units + error_);
+  }
   return static_cast<Cost>(std::clamp(units, -static_cast<double>(infinite / 4), largest_sum * 1.5));
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -41,6 +42,7 @@ class SoftNetwork {
   SoftNetwork(const LabelingProblem& problem, Deadline& deadline);
   bool complete() const { return complete_; }
 
+  /// The problem's, and after them those that were added.
   int variables() const { return static_cast<int>(size_.size()); }
   int size(int variable) const { return size_[variable]; }
   Cost* unary(int variable) { return costs_.data() + unary_[variable]; }
@@ -93,7 +95,7 @@ class SoftNetwork {
   Index value_of(int variable, int value) const { return values_[first_[variable] + value]; }
   double to_cost(double units) const { return offset_ + units / scale_; }
   /// Lower bound of a labelling's cost that the constant proves.
-  double bound(Cost constant) const { return to_cost(static_cast<double>(constant) - error_); }
+  double bound(Cost constant) const;
   /// Units that no labelling of cost below `limit` (or at it, with `inclusive`) reaches.
   Cost cutoff(double limit, bool inclusive) const;
   /// A value of some variable is impossible in any labelling of finite cost: nothing is left.
@@ -130,6 +132,10 @@ class SoftNetwork {
   void add_delayed(const std::vector<int>& variables, std::span<const double> costs);
   void complete_functions();
   int function_between(int x, int y);
+  int best_value(int variable) const;
+  void add_cliques();
+  void drop_covered(std::set<std::pair<int, int>> covered);
+  int add_variable(int size);
   void project_delayed();
   Cost units(double cost) const;
   int release(int delayed);
@@ -152,7 +158,10 @@ class SoftNetwork {
 
   const LabelingProblem& problem_;
   bool complete_ = true, infeasible_ = false;
+  /// Of a sum in steps: rounding alone.
+  static constexpr double exact_error = 1e-3;
   double offset_ = 0, scale_ = 1, error_ = 0;
+  double step_ = 0;  ///< costs of labellings are multiples of so many units; 0: of none
 
   std::vector<int> size_, count_;
   std::vector<int> first_;          ///< of a variable's values in order_, place_, values_, candidates_

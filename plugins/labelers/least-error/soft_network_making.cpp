@@ -19,10 +19,15 @@ class Unit {
       while (scale <= 1e9 && std::abs(cost * scale - std::round(cost * scale)) > 1e-7) scale *= base == 0 ? 10 : 2;
     }
   }
-  /// \param range  of a sum of all costs \param exact  every cost is a whole number of units
-  double scale(double range, bool& exact) const {
-    for (const double scale : scale_)
-      if ((exact = range * scale <= SoftNetwork::largest_sum)) return scale;
+  /// \param range  of a sum of all costs \param step  every cost is a multiple of so many units; 0: they are rounded
+  double scale(double range, double& step) const {
+    for (const double scale : scale_) {
+      if (range * scale > SoftNetwork::largest_sum) continue;
+      // Finer than the costs, so that they can be moved in small parts.
+      step = std::exp2(std::floor(std::log2(SoftNetwork::largest_sum / (range * scale))));
+      return scale * step;
+    }
+    step = 0;
     return std::exp2(std::floor(std::log2(SoftNetwork::largest_sum / range)));
   }
 
@@ -69,17 +74,19 @@ SoftNetwork::SoftNetwork(const LabelingProblem& problem, Deadline& deadline) : p
   terms.offset = problem.constant;
   infeasible_ = !read_variables(terms);
   if (infeasible_ || !read_constraints(terms, deadline)) return;
-  bool exact = true;
   offset_ = terms.offset;
-  scale_ = terms.unit.scale(terms.range, exact);
-  error_ = exact ? 1e-3 : 0.5 * static_cast<double>(terms.graded) + 1;
+  scale_ = terms.unit.scale(terms.range, step_);
+  error_ = 0.5 * static_cast<double>(terms.graded) + 1;
   if (!make_functions(terms, deadline)) return;
   project_delayed();
+  add_cliques();
   complete_functions();
 }
 
 Cost SoftNetwork::units(double cost) const {
-  return cost < forbidden ? static_cast<Cost>(std::llround(cost * scale_)) : infinite;
+  if (!(cost < forbidden)) return infinite;
+  return static_cast<Cost>(step_ > 0 ? std::llround(cost * scale_ / step_) * std::llround(step_)
+                                     : std::llround(cost * scale_));
 }
 
 // False where a variable has no value left.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "support/classic_problems.h"
 #include "support/labeling_problems.h"
 #include "support/planted_problems.h"
 #include "support/plugins.h"
@@ -68,6 +69,55 @@ TEST(LeastError, EachPartAloneIsRight) {
       EXPECT_TRUE(all.empty() || outcome.labelings[0].cost == all[0].cost) << seed;
     }
   }
+}
+
+void expect_as_by_brute_force(const LabelingProblem& problem, std::uint64_t seed) {
+  const std::vector<Labeling> all = test::all_labelings(problem);
+  for (const std::size_t k : {std::size_t{1}, std::size_t{9}}) {
+    const LabelingOutcome outcome =
+        test::labeler("least-error")->solve(problem, {.k_best = k, .time_limit_s = 60}, test::context());
+    ASSERT_TRUE(outcome.optimal) << seed;
+    ASSERT_EQ(outcome.labelings.size(), std::min(k, all.size())) << seed;
+    for (std::size_t i = 0; i < outcome.labelings.size(); ++i)
+      EXPECT_EQ(outcome.labelings[i].cost, all[i].cost) << seed;
+  }
+}
+
+// Bids for one good are a clique, and each gets a variable of its own.
+TEST(LeastError, AuctionsAndWarehousesAsByBruteForce) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    expect_as_by_brute_force(test::auction(5 + seed % 7, 12, seed), seed);
+    expect_as_by_brute_force(test::warehouses(3, 5, seed), seed);
+  }
+}
+
+// At most one of forty: a bound from pairs alone leaves half of each, and a search through all.
+TEST(LeastError, OfACliqueAllButOnePay) {
+  LabelingProblem problem;
+  double sum = 0;
+  for (Index v = 0; v < 40; ++v) {
+    LabelingVariable& variable = problem.variables.emplace_back();
+    variable.name = "x" + std::to_string(v);
+    variable.optional = false;
+    variable.costs = {10.0 + v % 5, 0};
+    sum += variable.costs[0];
+    for (Index w = 0; w < v; ++w) problem.constraints.push_back({"", {w, v}, {0, 0, 0, forbidden}, {}});
+  }
+  const LabelingOutcome outcome =
+      test::labeler("least-error")->solve(problem, {.k_best = 1, .time_limit_s = 60}, test::context());
+  EXPECT_TRUE(outcome.optimal);
+  EXPECT_EQ(outcome.labelings[0].cost, sum - 14);
+  EXPECT_LE(outcome.nodes, 100U);
+}
+
+// Some labelling is there however early it is stopped, of thousands of variables too.
+TEST(LeastError, StoppedAtTheRootItHasALabelling) {
+  const LabelingProblem problem = test::auction(300, 1000, 1);
+  const LabelingOutcome outcome =
+      test::labeler("least-error")->solve(problem, {.k_best = 1, .time_limit_s = 0.3}, test::context());
+  ASSERT_EQ(outcome.labelings.size(), 1U);
+  EXPECT_LT(outcome.labelings[0].cost, forbidden);
+  EXPECT_LE(outcome.lower_bound, outcome.labelings[0].cost);
 }
 
 TEST(LeastError, EightQueensHave92Solutions) {

@@ -47,6 +47,10 @@ void add_reordered(const FactorGraph& graph, const Factor& factor, const std::ve
 /// The same costs in one factor for each set of variables. \throw OutOfTime
 FactorGraph merged(const FactorGraph& graph, Watch& watch);
 
+/// Values, scopes and sizes of tables, as far as they can be told without reading tables: enough to plan an
+/// elimination. \pre the problem outlives the graph
+FactorGraph skeleton(const LabelingProblem& problem);
+
 /// \pre the problem outlives the graph \throw OutOfTime
 FactorGraph factor_graph(const LabelingProblem& problem, Watch& watch);
 
