@@ -18,6 +18,13 @@ namespace {
 /// Thickness of a box, as part of its length, below which it has none.
 constexpr double flat_box = 1e-12;
 
+/// Whether an expression would have a value on a box of the same length that is as wide and thick as long.
+bool holds_with_thickness(const Expression& expression, ExpressionBoxes boxes) {
+  for (Box* box : {&boxes.object, &boxes.worksets}) box->sides.fill(box->a());
+  const double value = expression.evaluate(boxes);
+  return value > 0 && std::isfinite(value);
+}
+
 }  // namespace
 
 double Expression::evaluate(const ExpressionBoxes& boxes) const {
@@ -100,7 +107,7 @@ void refuse_on_mesh(const Expression& expression, const ExpressionBoxes& boxes, 
                     const std::string& what, const std::string& needed) {
   const std::string is = fmt::format("{} '{}' is {:.4g}", what, expression.text(), expression.evaluate(boxes));
   // A model may ask for thickness: then it is the mesh that is wrong.
-  if (const Box& box = boxes.object; !(box.c() > flat_box * box.a()))
+  if (const Box& box = boxes.object; !(box.c() > flat_box * box.a()) && holds_with_thickness(expression, boxes))
     throw MeshError(
         fmt::format("the mesh is flat: its box is {:.4g} x {:.4g} x {:.4g}, and the model asks for more: "
                     "{}: {}; give a mesh of the whole object, or a model of flat ones",

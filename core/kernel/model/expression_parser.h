@@ -71,6 +71,9 @@ struct ExpressionParser {
   Part combine(Operation operation, const Part& left, const Part& right, const Token& token, const Part& unit) {
     emit(operation);
     Part result = unit;
+    const auto unknown = [](const Part& part) { return part.literal_zero && !part.constant; };
+    const bool scales = operation == Operation::multiply || operation == Operation::divide;
+    result.literal_zero = unit.literal_zero || (scales && (unknown(left) || unknown(right)));  // still unknown
     if (left.constant && right.constant) {
       result.constant = apply(operation, *left.constant, *right.constant);
       if (!std::isfinite(*result.constant)) fail(token, "the value is not finite; use smaller numbers");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <utility>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
@@ -200,7 +201,7 @@ class Merger {
         throw UsageError(location_of(other, file_).str() +
                          ": '<<' takes a mapping or a list of mappings, as in '<<: *rim'; mark one with '&rim'");
       for (const auto& entry : other)
-        if (entry.first.IsScalar() && !node[entry.first.Scalar()]) node[entry.first] = entry.second;
+        if (entry.first.IsScalar() && !std::as_const(node)[entry.first.Scalar()]) node[entry.first] = entry.second;
     }
   }
 

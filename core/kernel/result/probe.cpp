@@ -56,24 +56,58 @@ void open_bound(ModelFeature& feature, Index bound) {
     feature.ranges[bound / 2].low.reset();
 }
 
+double value_of(const FittedShape& shape, const ModelFeature& feature, Index bound) {
+  if (bound / 2 >= feature.ranges.size()) return shape.rms;
+  const Measure* measure = shape.measure(feature.ranges[bound / 2].measure);
+  return measure ? measure->value : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// How far a shape misses the bounds that were opened, in parts of each.
+double miss_of(const FittedShape& shape, const ModelFeature& feature, const std::vector<BoundCount>& opened) {
+  double sum = 0;
+  for (const BoundCount& each : opened)
+    sum += std::abs(value_of(shape, feature, each.bound) - each.limit) / std::max(std::abs(each.limit), 1e-300);
+  return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
+}
+
+/// Gives the bounds the values of the group that came in and misses them least: what was nearest to one bound may have
+/// missed another.
+void take_values(const ConstructedFeatures& constructed, const ModelFeature& feature, Index index,
+                 std::vector<BoundCount>& opened) {
+  const std::vector<Index>& in = constructed.of_feature[index].constructed;
+  const auto nearest = *std::min_element(in.begin(), in.end(), [&](Index a, Index b) {
+    return miss_of(constructed.all[a].shape, feature, opened) < miss_of(constructed.all[b].shape, feature, opened);
+  });
+  const FittedShape& shape = constructed.all[nearest].shape;
+  std::erase_if(opened, [&](BoundCount& each) {
+    each.nearest = value_of(shape, feature, each.bound);
+    const bool upper = each.bound / 2 >= feature.ranges.size() || each.bound % 2 == 1;
+    return upper ? each.nearest < each.limit : each.nearest > each.limit;
+  });
+}
+
 /// Opens the bound whose nearest value misses it least, again and again, until a group comes in.
 void find_changes(const Analysis& analysis, const Model& model, const Stations& stations, Index feature,
                   Context& context, FeatureProbe& probed) {
   Model opened = model;
   CandidateCount count = probed.count;
+  std::vector<BoundCount> gone;
   for (std::size_t round = 0; round <= 2 * model.features[feature].ranges.size(); ++round) {
     const BoundCount* bound = nearest_bound(count);
-    if (!bound) return;
-    probed.changes.push_back({bound->words, bound->nearest, bound->limit,
-                              roomy_bound(*bound, model.features[feature], analysis.mesh.view().box.a())});
+    if (!bound) break;
+    gone.push_back(*bound);
     open_bound(opened.features[feature], bound->bound);
     const ModelRun run{analysis.mesh.view(), opened, stations, context};
-    count = construct_features(run, analysis.sets).of_feature[feature].count;
-    if (count.kept > 0) {
-      probed.enough = true;
-      return;
-    }
+    const ConstructedFeatures constructed = construct_features(run, analysis.sets);
+    count = constructed.of_feature[feature].count;
+    if (count.kept == 0) continue;
+    probed.enough = true;
+    take_values(constructed, model.features[feature], feature, gone);
+    break;
   }
+  for (const BoundCount& bound : gone)
+    probed.changes.push_back({bound.words, bound.nearest, bound.limit,
+                              roomy_bound(bound, model.features[feature], analysis.mesh.view().box.a())});
 }
 
 }  // namespace

@@ -136,7 +136,8 @@ std::vector<Table> changes(const Evaluation& evaluation, const std::string& base
         ++unknown;
         continue;
       }
-      other += mesh.error.empty() && old->at("sha256") != mesh.hash && old->at("sha256") != "";
+      const auto* hash = old->at("sha256").get_ptr<const std::string*>();
+      other += mesh.error.empty() && hash && !hash->empty() && *hash != mesh.hash;
       const Verdicts was = verdicts_of(*old), is = verdicts_of(nlohmann::json(as_json(mesh)));
       for (const auto& [name, verdict] : is) {
         const auto at = was.find(name);

@@ -127,14 +127,15 @@ class Tessellation {
                                           : circle(cut.center, cut.radius, cut.turn, segments_);
     const double top = plate_.mouth_height(cut), floor = cut.through() ? 0 : top - cut.depth;
     const double cone = std::max(0.0, cut.countersink - cut.radius);
-    const Loop bottom = loop(outline, floor), upper = loop(outline, top - cone);
+    const Loop bottom = loop(outline, floor);
+    Loop upper = loop(outline, top - cone);
     strip(bottom, upper, false, part);
     if (cut.through())
       in_bottom.push_back(bottom);
     else
       cap(bottom, {}, true, part);
     if (!(cone > 0)) return upper;
-    const Loop mouth = loop(circle(cut.center, cut.countersink, cut.turn, segments_), top);
+    Loop mouth = loop(circle(cut.center, cut.countersink, cut.turn, segments_), top);
     strip(upper, mouth, false, part);
     return mouth;
   }

@@ -10,6 +10,7 @@
 
 #include "base/errors.h"
 #include "sample/isosurface.h"
+#include "sample/parameters.h"
 #include "sample/remesh.h"
 
 namespace toposcope {
@@ -59,8 +60,9 @@ TriangleSoup net_of(const Solid& solid, const std::string& kind, double spacing,
   try {
     return extract_isosurface(solid.surface, solid.low, solid.high, spacing, level, context);
   } catch (const std::length_error&) {
-    throw UsageError(fmt::format("{}: {} is {}: too thin for the object's size to be meshed; give more", kind,
-                                 solid.thinnest_parameter, solid.thinnest));
+    throw ParameterError(kind, solid.thinnest_parameter,
+                         fmt::format("{} is {}: too thin for the object's size to be meshed; give more",
+                                     solid.thinnest_parameter, solid.thinnest));
   }
 }
 
@@ -68,8 +70,9 @@ TriangleSoup mesh_solid(const Solid& solid, const SampleRequest& request, Contex
   const double faces = request.faces;
   const TriangleSoup fine = fine_net(solid, request, context);
   if (fine.triangles.empty())
-    throw UsageError(fmt::format("{}: {} is {}: no grid resolves the object; give more", request.kind,
-                                 solid.thinnest_parameter, solid.thinnest));
+    throw ParameterError(
+        request.kind, solid.thinnest_parameter,
+        fmt::format("{} is {}: no grid resolves the object; give more", solid.thinnest_parameter, solid.thinnest));
   TriangleSoup mesh = remesh(fine, solid.surface, request.faces, context);
   if (static_cast<double>(mesh.triangles.size()) > 1.03 * faces)
     throw UsageError(fmt::format("{}: faces is {}: the object's curved parts need at least {} faces; ask for more",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <random>
 
 #include "sample/drilled_plate.h"
@@ -43,6 +44,13 @@ std::vector<RandomRange> with_common(std::vector<RandomRange> ranges) {
   return ranges;
 }
 
+/// What is smaller does not come through a file of single precision.
+void check_radii(const DrilledPlate& plate, const ParameterValues& values, std::initializer_list<const char*> names) {
+  for (const char* name : names)
+    require(parameter(values, name) >= 1e-4 * plate.length, plate.kind, name, parameter(values, name),
+            "it must be at least 1e-4 of the plate's length", "give a larger one");
+}
+
 /// Finds places on a plate.
 class Layout {
  public:
@@ -68,7 +76,7 @@ class Layout {
   Vec2 free_place(double reach, const char* parameter_name) {
     constexpr int most_tries = 2000;
     for (int i = 0; i < most_tries; ++i) {
-      const Vec2 place(uniform(-0.5, 0.5) * plate_.length, uniform(-0.5, 0.5) * plate_.width);
+      Vec2 place(uniform(-0.5, 0.5) * plate_.length, uniform(-0.5, 0.5) * plate_.width);
       if (is_free(place, reach)) return place;
     }
     require(false, plate_.kind, parameter_name, number(parameter_name),
@@ -192,6 +200,9 @@ Solid make_plate(const ParameterValues& values) {
   plate.margin = 0.3 * plate.thickness;
   require(plate.corner_radius <= 0.45 * std::min(plate.length, plate.width), plate.kind, "corner_radius",
           plate.corner_radius, "it may be at most 0.45 of length and width", "give a smaller one");
+  require(plate.width >= 0.01 * plate.length && plate.width <= 100 * plate.length, plate.kind, "width", plate.width,
+          "it must lie between 0.01 and 100 times the length", "choose it in that range");
+  check_radii(plate, values, {"corner_radius", "hole_radius", "bolt_hole_radius", "boss_radius"});
   require(plate.thickness <= 0.3 * std::min(plate.length, plate.width), plate.kind, "thickness", plate.thickness,
           "a plate is at most 0.3 of its length and width thick", "give a thinner one");
   Layout layout(plate, values);
@@ -254,6 +265,7 @@ Solid make_flange(const ParameterValues& values) {
   plate.kind = "flange";
   plate.corner_radius = parameter(values, "radius");
   plate.length = plate.width = 2 * plate.corner_radius;
+  check_radii(plate, values, {"hole_radius", "bore_radius"});
   plate.thickness = parameter(values, "thickness");
   plate.margin = 0.2 * plate.thickness;
   Layout layout(plate, values);

@@ -56,7 +56,7 @@ LabelingOutcome proven(const LabelingProblem& problem, const SolverOutput& outpu
   }
   if (output.values.empty()) throw std::runtime_error("toulbar2 proved an optimum but printed no labelling");
   outcome.labelings = {{output.values, cost_of(problem, output.values)}};
-  const double printed = 0.5 * std::pow(10.0, -written.decimals);
+  const double printed = written.exact ? 0 : 0.5 * std::pow(10.0, -written.decimals);
   if (const std::string contradicted =
           contradiction(outcome.labelings[0].cost, output, rounding_of(problem, written) + printed);
       !contradicted.empty()) {

@@ -40,7 +40,7 @@ TEST(ModelProbe, NamesTheBoundThatKeepsTheNearestOut) {
   ASSERT_EQ(toposcope("sample cup --faces 3000 -o " + mesh).exit_code, 0);
   write_text(file,
              "schema: toposcope.model/1\nname: m\nfeatures:\n"
-             "  rim: {worksets: [convex], shape: circle, ranges: {radius: 0.9*bb(O).a < r}}\n"
+             "  rim: {worksets: [convex], shape: circle, ranges: {radius: 0.9*bb(O).a < r, coverage: 0.5 < c}}\n"
              "  bottom: {worksets: [planar], shape: plane, max_fit_error: bb(O).c/50}\n"
              "relationships:\n  r1: {features: [rim, bottom], type: parallel}\n");
   const Outcome said = toposcope("run " + mesh + " --model " + file);

@@ -104,7 +104,7 @@ TEST_F(ReadModel, SchemaErrorsNamePlaceValueAndRemedy) {
       {"{from: rimLine, ", "{", "16:5", "'associations.0' lacks 'from'"},
       {"worksets: [convex]\n", "workset: [convex]\n", "20:5",
        "unknown key 'workset' in 'features.rim'; did you mean 'worksets'?"},
-      {"shape: circle", "shape: [circle]", "21:12", "'features.rim.shape' is a list; needed: the id of a shape"},
+      {"shape: circle", "shape: [circle]", "21:12", "'features.rim.shape' has 1 entries; needed: the id of a shape"},
       {"{plugin: line-group, ", "{", "26:66", "'features.edge.shape' lacks 'plugin'"},
       {"detectability: 0.75", "detectability: 1.5", "25:20",
        "'features.rim.detectability' is 1.5; needed: the likelihood"},

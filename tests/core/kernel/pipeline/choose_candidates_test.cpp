@@ -22,6 +22,8 @@ struct ChooseCandidates : ::testing::Test, test::HandMadeRun {
     add_feature("rod", 1, fitter).second_look = {"convex"};
     add_feature("bar", 1, fitter);
     features.of_feature.resize(2);
+    for (ModelFeature& feature : model.features)
+      feature.ranges = {{"length", expression("3"), expression("bb(O).a/2"), {}}};
   }
 
   WorkingSetGroups groups() {
@@ -79,7 +81,6 @@ TEST_F(ChooseCandidates, TheBestStayAndTheRestIsCounted) {
 
 TEST_F(ChooseCandidates, EachBoundSaysWhatItCostAndWhatCameNearest) {
   for (int row = 0; row < 5; ++row) add_set(row);
-  model.features[0].ranges = {{"length", expression("3"), expression("bb(O).a/2"), {}}};
   GroupFits all = fits(groups(), {5, 9, 7, 3, 2}, {{fitted, out_of_range, out_of_range, boxed_out, out_of_range}});
   all.verdicts[0][1] = {out_of_range, 1, 9, 4.5};
   all.verdicts[0][2] = {out_of_range, 1, 5, 4.5};

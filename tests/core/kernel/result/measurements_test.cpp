@@ -125,7 +125,7 @@ TEST(Measurements, DeviationsAndCovariancesAreThoseOfMonteCarlo) {
   std::mt19937_64 random(7);
   const FittedShape first = circle({1, 2, 3}, {1, 2, -1}, 2, some_covariance(7, 0.01, random));
   const FittedShape second = circle({-2, 0, 1}, {0, 1, 1}, 3, some_covariance(7, 0.01, random));
-  const FittedShape third = circle({0, 4, -1}, {2, 1, 0}, 1, some_covariance(7, 0.02, random));
+  const FittedShape third = circle({0, 4, 1.5}, {2, 1, 0}, 1, some_covariance(7, 0.02, random));
   const Model model =
       model_of({"distance(a, b)", "angle(a, b)", "along(a, b, c)", "across(a, b, c)", "ratio(a.radius, b.radius) + 1",
                 "a.radius * c.radius / b.radius", "max(a.radius, b.radius)", "2 * distance(b, c) - b.radius"});

@@ -20,9 +20,9 @@ TEST(Predictive, IntervalsHoldTheNextAsOftenAsTheySay) {
       int held = 0;
       for (int i = 0; i < draws; ++i) {
         std::vector<double> values;
-        for (std::size_t k = 0; k < n; ++k) values.push_back(4 * std::exp(0.05 * normal(random)));
+        for (std::size_t k = 0; k < n; ++k) values.push_back(4 * std::exp(0.2 * normal(random)));
         const PredictiveInterval interval = predict(values, coverage);
-        const double next = 4 * std::exp(0.05 * normal(random));
+        const double next = 4 * std::exp(0.2 * normal(random));
         held += next > interval.low && next < interval.high;
       }
       // Spreads below the least are widened: a little more is held of few.
