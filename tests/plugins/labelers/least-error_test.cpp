@@ -86,7 +86,7 @@ void expect_as_by_brute_force(const LabelingProblem& problem, std::uint64_t seed
 // Bids for one good are a clique, and each gets a variable of its own.
 TEST(LeastError, AuctionsAndWarehousesAsByBruteForce) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    expect_as_by_brute_force(test::auction(5 + seed % 7, 12, seed), seed);
+    expect_as_by_brute_force(test::auction(static_cast<Index>(5 + seed % 7), 12, seed), seed);
     expect_as_by_brute_force(test::warehouses(3, 5, seed), seed);
   }
 }
