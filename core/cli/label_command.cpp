@@ -14,6 +14,7 @@
 #include "options.h"
 #include "output.h"
 #include "pipeline/solve.h"
+#include "result/exactness.h"
 #include "session.h"
 #include "toposcope/labeling/tools.h"
 
@@ -60,18 +61,8 @@ ordered_json values_of(const LabelingProblem& problem, const Labeling& labeling)
   return values;
 }
 
-const char* name_of(Exactness exactness) {
-  constexpr const char* names[] = {"none", "exact", "bound", "approximate"};
-  return names[static_cast<std::size_t>(exactness)];
-}
-
 ordered_json error_of(Exactness exactness, double error) {
   return exactness == Exactness::bound ? ordered_json(error) : ordered_json();
-}
-
-/// "exact", "approximate", "off by at most 0.001 nats"
-std::string in_words(Exactness exactness, double error, const char* unit) {
-  return exactness == Exactness::bound ? fmt::format("off by at most {:.3g}{}", error, unit) : name_of(exactness);
 }
 
 // What is no finite number is written as null.
@@ -138,7 +129,7 @@ std::string as_text(const LabelingProblem& problem, const LabelingOutcome& outco
     text += fmt::format("log evidence {:.10g} ({})\n", outcome.log_evidence,
                         in_words(outcome.evidence_exactness, outcome.evidence_error, " nats"));
   if (!outcome.posteriors.empty())
-    text += fmt::format("posteriors   {}\n", in_words(outcome.posterior_exactness, outcome.posterior_error, ""));
+    text += fmt::format("posteriors   {}\n", in_words(outcome.posterior_exactness, outcome.posterior_error));
   for (std::size_t k = 1; k < outcome.labelings.size(); ++k) {
     text += fmt::format("next best    {:.10g}:", outcome.labelings[k].cost);
     for (Index v = 0; v < problem.variables.size(); ++v)

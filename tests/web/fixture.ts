@@ -119,7 +119,7 @@ export function scene(): SceneDocument {
       schema: 'toposcope.result/1',
       mesh: { path: 'meshes/beaker.ply', sha256: '0'.repeat(64), vertices: positions.length / 3, faces: labels.length, box: { a: 76, b: 76, c: 73 }, mean_edge: 5, components: 1, closed_components: 0, holes: 2, euler: 0, genus: 0, repair: { merged_vertices: 3, unreferenced_vertices: 0, non_finite_vertices: 0, non_finite_faces: 0, degenerate_faces: 0, flat_faces: 0, duplicate_faces: 0, split_edges: 0, isolated_faces: 0, split_vertices: 0, turned_faces: 0, cut_edges: 0 } },
       model: 'cup', model_sha256: '0'.repeat(64), status: 'partial', class: null, class_probabilities: { cup: 1 }, log_evidence: 41.5, optimal: true,
-      guarantee: 'least cost: proven', probabilities: 'posterior: exact',
+      guarantee: 'least cost: proven', probabilities: 'posterior: exact', probability_exactness: 'exact', probability_error: null,
       features: {
         rim: { present: true, probability: 0.9997, evidence: 30, shape: 'circle', parameters: rim, measures: { radius: 36, coverage: 1 }, fit_error: 0.1, fit, uncertainty: { radius: 0.05, centroid: 0.04, direction_deg: 0.2 }, working_sets: [0], faces: facesOf(1) },
         bottom: { present: true, probability: 0.84, evidence: 12, shape: 'plane', parameters: bottom, measures: { extent: 60, area: 2800 }, fit_error: 0, fit, uncertainty: { extent: 1, centroid: 0.5 }, working_sets: [1], faces: facesOf(2) },

@@ -145,7 +145,7 @@ test('picking a face, a row or a name selects everywhere', async () => {
   assert.deepEqual((await pressed()).filter((key) => !key.startsWith('labeling')), ['relation:r1']);
   assert.equal(await page.locator('.panels .related').count(), 2, 'both features of the relation');
   await page.click('[data-key="feature:handle"]');
-  assert.match(await page.textContent('.panels .missing .detail') ?? '', /r2 perpendicular 41° of 10°.*Proven: every candidate breaks r2 or shares vertices with bottom/);
+  assert.match(await page.textContent('.panels .missing .detail') ?? '', /r2 perpendicular 41° of 10°.*Proven: every candidate breaks r2 or shares its place with bottom/);
   assert.match(await page.textContent('.labels') ?? '', /handle: nearest candidate/);
   await page.keyboard.press('Escape');
   assert.equal(await page.evaluate(() => window.toposcope!.state().feature), null);

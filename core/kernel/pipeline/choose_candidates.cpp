@@ -174,6 +174,7 @@ class Chooser {
     made.shape = fits_.shapes[g];
     made.fitter = job_.station(run_.stations).fitter.get();
     made.plugin = job_.station(run_.stations).plugin;
+    made.dimension = job_.station(run_.stations).dimension;
     points_.gather(run_.mesh, sets_, fits_.groups[g]);
     made.points = points_.points;
     made.vertices = points_.vertices;

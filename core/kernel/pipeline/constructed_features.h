@@ -16,6 +16,7 @@ struct ConstructedFeature {
   FittedShape shape;
   const ShapeFitter* fitter = nullptr;  ///< that made the shape
   std::string plugin;                   ///< its id
+  int dimension = -1;                   ///< of its shapes, as the plugin says; -1: unknown
   Box box;                              ///< bb(w)
   std::vector<Vec3> points;             ///< of all sets, one after the other
   std::vector<Index> vertices;          ///< of the mesh, one per point

@@ -8,35 +8,13 @@
 
 #include "pipeline/solve.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/tell_apart.h"
 #include "probability/symmetry.h"
 #include "toposcope/labeling/restricted.h"
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope {
 namespace {
-
-/// Values of each variable that stay: those nearer to the variable's own label than to the labels of the features
-/// that it could be exchanged with. So an airplane's port wing has one side, and not half a probability on each.
-std::vector<std::vector<Index>> one_side(const ClassOutcome& solved, const std::vector<std::vector<Index>>& orbits,
-                                         const ConstructedFeatures& features) {
-  const std::vector<Index>& best = solved.outcome.labelings.front().values;
-  const auto centroid_of = [&](Index variable, Index value) -> const Vec3& {
-    return features.all[solved.problem.variables[variable].candidates[value - 1]].shape.centroid;
-  };
-  std::vector<std::vector<Index>> kept(best.size());
-  for (Index v = 0; v < best.size(); ++v)
-    for (Index value = 0; value < solved.problem.variables[v].domain(); ++value) {
-      bool own = true;
-      if (value > 0 && best[v] > 0)
-        for (Index w = 0; w < best.size(); ++w) {
-          if (w == v || best[w] == 0 || !std::binary_search(orbits[v].begin(), orbits[v].end(), w)) continue;
-          const Vec3& at = centroid_of(v, value);
-          own = own && (at - centroid_of(v, best[v])).squaredNorm() <= (at - centroid_of(w, best[w])).squaredNorm();
-        }
-      if (own) kept[v].push_back(value);
-    }
-  return kept;
-}
 
 struct SolveTimes {
   double label_ms = 0, marginals_ms = 0;
@@ -64,6 +42,27 @@ SolveTimes solve_class(ClassOutcome& posed, const ModelRun& run, const LabelingR
   return times;
 }
 
+/// Leaves each feature the values of its own place where it could change names with others.
+void tell_apart(ClassOutcome& posed, const std::vector<std::vector<Index>>& orbits, const ConstructedFeatures& features,
+                const ModelRun& run, const LabelingRequest& request) {
+  const Interchange interchange{posed, orbits, features, run};
+  const std::vector<Index> places = own_places(interchange);
+  const std::vector<std::vector<Index>> kept = told_apart(interchange, places);
+  bool changed = false;
+  for (Index v = 0; v < kept.size(); ++v) changed = changed || kept[v].size() < posed.problem.variables[v].domain();
+  if (!changed) return;
+  std::size_t largest = 1;  // orbit
+  for (const std::vector<Index>& orbit : orbits) largest = std::max(largest, orbit.size());
+  LabelingOutcome summed = posed.outcome;
+  if (!summed.posteriors.empty()) summed.posteriors = summed_over_names(interchange, places, kept);
+  summed.posterior_error *= static_cast<double>(largest);
+  // A labelling is as likely as all that differ from it in names alone.
+  summed.log_evidence = posed.log_evidence;
+  posed.problem = restricted(posed.problem, kept);
+  posed.outcome = solve(run.stations.labeler, posed.problem, request, run.context);
+  take_sums(summed, posed.outcome);
+}
+
 }  // namespace
 
 ClassOutcome label_class(ClassOutcome posed, const ConstructedFeatures& features, const ModelRun& run,
@@ -78,13 +77,7 @@ ClassOutcome label_class(ClassOutcome posed, const ConstructedFeatures& features
   const auto names = renamings_of(posed, run.model, run.stations);
   // What differs in names that mean the same is one explanation, not several.
   posed.log_evidence = posed.outcome.log_evidence - std::log(static_cast<double>(names.size()));
-  const auto kept = one_side(posed, orbits_of(names), features);
-  bool changed = false;
-  for (Index v = 0; v < kept.size(); ++v) changed = changed || kept[v].size() < posed.problem.variables[v].domain();
-  if (changed) {
-    posed.problem = restricted(posed.problem, kept);
-    solve_class(posed, run, request);
-  }
+  tell_apart(posed, orbits_of(names), features, run, request);
   const Labeling& best = posed.answer = posed.outcome.labelings.front();
   posed.complete = std::all_of(best.values.begin(), best.values.end(), [](Index value) { return value > 0; });
   for (const LabelingConstraint& constraint : posed.problem.constraints)

@@ -35,6 +35,13 @@ class ValuesByShape {
     return values;
   }
 
+  double most_of_a_shape() const {
+    double most = 0;
+    for (Index value = 1; value < variable_.domain(); ++value)
+      if (posterior_[value] > 0) most = std::max(most, probability(value));
+    return most;
+  }
+
   /// The values of the most probable shape.
   std::vector<Index> best() const {
     std::vector<Index> order(variable_.domain());
@@ -61,10 +68,8 @@ class ValuesByShape {
  private:
   bool same(Index a, Index b) const {
     if (a == 0 || b == 0) return false;
-    const auto made = [&](Index value) -> const ConstructedFeature& {
-      return features_.all[variable_.candidates[value - 1]];
-    };
-    return made(a).fitter == made(b).fitter && same_shape(*made(a).fitter, made(a).shape, made(b).shape, mean_edge_);
+    return same_shape(features_.all[variable_.candidates[a - 1]], features_.all[variable_.candidates[b - 1]],
+                      mean_edge_);
   }
 
   const LabelingVariable& variable_;
@@ -78,6 +83,11 @@ class ValuesByShape {
 double probability_of_shape(const ClassOutcome& posed, Index variable, Index value, const ConstructedFeatures& features,
                             const ModelRun& run) {
   return ValuesByShape(posed, variable, features, run).probability(value);
+}
+
+double most_of_a_shape(const ClassOutcome& posed, Index variable, const ConstructedFeatures& features,
+                       const ModelRun& run) {
+  return ValuesByShape(posed, variable, features, run).most_of_a_shape();
 }
 
 Labeling with_most_probable_shapes(const ClassOutcome& posed, const ConstructedFeatures& features,

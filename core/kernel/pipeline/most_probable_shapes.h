@@ -13,6 +13,11 @@ namespace toposcope {
 double probability_of_shape(const ClassOutcome& posed, Index variable, Index value, const ConstructedFeatures& features,
                             const ModelRun& run);
 
+/// Greatest such probability of a value other than *missing*; 0 where there is none.
+/// \pre there are posteriors
+double most_of_a_shape(const ClassOutcome& posed, Index variable, const ConstructedFeatures& features,
+                       const ModelRun& run);
+
 /// The labelling that is reported. Candidates of one shape share its probability, so that one that stands alone may
 /// make the labelling of least cost though its shape has little probability. Where another shape of a feature
 /// has more than that of the label of least cost, the labels are those of least cost with such features in their most

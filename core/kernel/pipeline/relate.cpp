@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "pipeline/places.h"
 #include "pipeline/relation_table.h"
 #include "probability/likelihood.h"
 
@@ -25,18 +26,6 @@ LabelingVariable variable_of(const ModelFeature& feature, const FeatureCandidate
   for (std::size_t c = 0; c < candidates.evidence.size(); ++c)
     variable.costs.push_back(costs.present + std::log(candidates.ways[c]) - candidates.evidence[c]);
   return variable;
-}
-
-/// The constructed features that share a vertex.
-BitMatrix conflicts_of(const std::vector<ConstructedFeature>& features, const BitMatrix& overlap) {
-  const Index count = static_cast<Index>(features.size());
-  BitMatrix conflicts(count);
-  for (Index a = 0; a < count; ++a)
-    for (Index b = 0; b < count; ++b)
-      for (Index s : features[a].sets)
-        for (Index t : features[b].sets)
-          if (overlap.get(s, t)) conflicts.set(a, b);
-  return conflicts;
 }
 
 /// Whether the variables of one scope have in turn the same candidates as those of the other.
@@ -75,7 +64,7 @@ LabelingProblem relate(const ModelRun& run, const MeasuredWorkingSets& sets, con
   for (Index f = 0; f < model.features.size(); ++f)
     problem.variables.push_back(variable_of(model.features[f], features.of_feature[f], run.stations.probability));
   problem.candidate_count = static_cast<Index>(features.all.size());
-  problem.conflict_bits = std::move(conflicts_of(features.all, sets.overlap).bits);
+  problem.conflict_bits = std::move(exclusions(run, sets, features.all).bits);
 
   std::vector<BoundRelation> relations;
   std::uint64_t taken = known ? table_bytes(*known) : 0;  // bytes in tables, of both while both are there

@@ -103,7 +103,7 @@ Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const
       const PluginManifest& shape = catalog.require(PluginKind::shapes, spec.plugin, where);
       return ShapeStation{plugins.shape(shape),
                           check_options(shape.arguments, spec.arguments, where + ": shape '" + shape.id + "'"),
-                          shape.id};
+                          shape.id, shape.dimension};
     };
     FeatureStation& station = stations.features.emplace_back(FeatureStation{shape_station(feature.shape), {}});
     for (const ShapeSpec& other : feature.other_shapes) station.others.push_back(shape_station(other));

@@ -52,6 +52,7 @@ struct ShapeStation {
   std::shared_ptr<const ShapeFitter> fitter;
   std::vector<OptionValue> arguments;  ///< what the model says of the shape, checked
   std::string plugin;                  ///< id
+  int dimension = -1;                  ///< of its shapes
 };
 
 /// What fits the shapes of one model feature: more than one where they are alternatives.

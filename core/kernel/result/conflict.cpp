@@ -35,7 +35,7 @@ std::string in_words(const ConflictReport& conflict) {
   std::string text = "every candidate ";
   if (!conflict.relations.empty()) text += "breaks " + any_of(conflict.relations);
   if (!conflict.relations.empty() && !conflict.exclusions.empty()) text += " or ";
-  if (!conflict.exclusions.empty()) text += "shares vertices with " + any_of(conflict.exclusions);
+  if (!conflict.exclusions.empty()) text += "shares its place with " + any_of(conflict.exclusions);
   return text;
 }
 

@@ -11,7 +11,7 @@
 namespace toposcope {
 
 /// What together forbids every candidate of a missing feature, all other features as labelled: each candidate breaks
-/// one of the relationships beyond its tolerance or shares vertices with one of the features.
+/// one of the relationships beyond its tolerance or shares its place with one of the features.
 struct ConflictReport {
   std::vector<std::string> relations = {};
   std::vector<std::string> exclusions = {};  ///< features
@@ -23,7 +23,7 @@ struct ConflictReport {
 std::optional<ConflictReport> conflict_of_missing(const LabelingProblem& problem, const Labeling& labeling,
                                                   Index variable, const Context& context);
 
-/// "every candidate breaks r1 or r4 or shares vertices with bottom"
+/// "every candidate breaks r1 or r4 or shares its place with bottom"
 std::string in_words(const ConflictReport& conflict);
 
 }  // namespace toposcope

@@ -52,6 +52,7 @@ class Explainer {
       report.faces.erase(std::unique(report.faces.begin(), report.faces.end()), report.faces.end());
     } else {
       report.missing = why_missing(model_feature, v);
+      if (report.probability < 0.5) report.missing.reason += "; " + why_unlikely(v, report.probability);
     }
     return report;
   }
@@ -79,6 +80,17 @@ class Explainer {
     return analysis_.mesh.input_triangles(which);
   }
 
+  /// Of a feature that is missing though it more likely is not: why no shape stands for it.
+  std::string why_unlikely(Index v, double missing) const {
+    const double most = most_of_a_shape(posed_, v, analysis_.features, run_);
+    const std::string there = fmt::format("it is there with {:.3f}, ", 1 - missing);
+    return there + (most > missing
+                        ? fmt::format("but no labelling has it in its most probable shape ({:.3f}) beside the "
+                                      "most probable shapes of the others",
+                                      most)
+                        : fmt::format("but as no one shape with more than {:.3f}", most));
+  }
+
   MissingReport why_missing(Index model_feature, Index v) const {
     MissingReport report;
     const LabelingVariable& variable = posed_.problem.variables[v];
@@ -103,7 +115,8 @@ class Explainer {
       }
     }
     if (nearest == 0) {
-      report.reason = "all " + std::to_string(in_conflict) + " candidates share vertices with other labelled features";
+      report.reason =
+          "all " + std::to_string(in_conflict) + " candidates share their place with other labelled features";
       return report;
     }
     trial.values[v] = nearest;
@@ -190,6 +203,8 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
   result.log_evidence = posed.log_evidence;
   result.guarantee = outcome.guarantee;
   result.probabilities = posed.probabilities;
+  result.probability_exactness = outcome.posterior_exactness;
+  result.probability_error = outcome.posterior_error;
   result.optimal = outcome.optimal;
   result.working_sets = analysis.sets.size();
   result.timings = analysis.timings;

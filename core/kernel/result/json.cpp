@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "result/classification.h"
+#include "result/exactness.h"
 #include "result/repair_words.h"
 #include "result/result.h"
 #include "result/shape_json.h"
@@ -172,6 +173,9 @@ Json document(const Result& result) {
   root["optimal"] = result.optimal;
   root["guarantee"] = result.guarantee;
   root["probabilities"] = result.probabilities.empty() ? Json(nullptr) : Json(result.probabilities);
+  root["probability_exactness"] = name_of(result.probability_exactness);
+  root["probability_error"] =
+      result.probability_exactness == Exactness::bound ? Json(result.probability_error) : Json(nullptr);
   root["features"] = Json::object();
   for (const FeatureReport& report : result.features) root["features"][report.name] = feature(report);
   root["relations"] = Json::array();

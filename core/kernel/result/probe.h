@@ -14,7 +14,7 @@ namespace toposcope {
 struct ProbedCandidate {
   Index rank = 0;  ///< from 1, as in result.json
   bool labelled = false;
-  bool in_conflict = false;  ///< shares vertices with another labelled feature
+  bool in_conflict = false;  ///< shares its place with another labelled feature
   double probability = 0;    ///< its posterior; not a number where there is none
   double evidence = 0;       ///< of its fit, nats
   double cost = 0;           ///< that labelling it would add over leaving the feature missing, all else as it is, nats

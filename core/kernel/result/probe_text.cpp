@@ -45,7 +45,7 @@ std::string candidate_text(const ProbedCandidate& candidate) {
   std::string text = fmt::format(
       "  {}{:>3}  prob. {}  evidence {:.4g}  cost over missing {:.4g}{}\n       ", candidate.labelled ? "*" : " ",
       candidate.rank, std::isnan(candidate.probability) ? "-" : fmt::format("{:.3f}", candidate.probability),
-      candidate.evidence, candidate.cost, candidate.in_conflict ? "  shares vertices with another feature" : "");
+      candidate.evidence, candidate.cost, candidate.in_conflict ? "  shares its place with another feature" : "");
   for (const Measure& measure : candidate.shape.measures)
     text += fmt::format(" {} {:.4g}{}", measure.name, measure.value,
                         measure.sd > 0 ? fmt::format(" +- {:.2g}", measure.sd) : "");

@@ -83,8 +83,10 @@ struct Result {
   std::string class_name;  ///< for a model with class rules: the best; empty when none fits
   std::vector<ClassReport> classes;
   double log_evidence = 0;
-  std::string guarantee;      ///< what the labeler promises of the labelling
-  std::string probabilities;  ///< how they were made, plugin first; empty: there are none
+  std::string guarantee;                              ///< what the labeler promises of the labelling
+  std::string probabilities;                          ///< how they were made, plugin first; empty: there are none
+  Exactness probability_exactness = Exactness::none;  ///< of the features' probabilities
+  double probability_error = 0;                       ///< where that is a `bound`: no probability is off by more
   bool optimal = false;
   std::vector<FeatureReport> features;
   std::vector<RelationReport> relations;

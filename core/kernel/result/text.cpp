@@ -6,6 +6,7 @@
 
 #include "base/csv.h"
 #include "io/mesh_io.h"
+#include "result/exactness.h"
 #include "result/palette.h"
 #include "result/repair_words.h"
 #include "result/result.h"
@@ -71,6 +72,8 @@ std::string to_text(const Result& result) {
                                               failed.type, failed.residual, failed.unit, failed.tolerance)
                                 : fmt::format("  {:<31}{} {}: {}\n", "", failed.name, failed.type, failed.why);
   }
+  if (result.probability_exactness != Exactness::none)
+    text += fmt::format("\n  probabilities: {}\n", in_words(result.probability_exactness, result.probability_error));
   std::size_t name = 5, type = 21;  // the columns are as wide as what stands in them
   for (const RelationReport& report : result.relations) {
     name = std::max(name, report.name.size());

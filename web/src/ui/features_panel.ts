@@ -59,7 +59,7 @@ function foundDetail(scene: Scene, store: Store, { name }: NamedFeature, feature
 function missingDetail(scene: Scene, store: Store, named: NamedFeature, feature: MissingFeature): HTMLElement {
   const { why } = feature, unit = scene.document.unit;
   const nearest = nearestCandidate(scene, named);
-  const against = [...(why.conflict?.relations ?? []).map((each) => `breaks ${each}`), ...(why.conflict?.exclusions ?? []).map((each) => `shares vertices with ${each}`)];
+  const against = [...(why.conflict?.relations ?? []).map((each) => `breaks ${each}`), ...(why.conflict?.exclusions ?? []).map((each) => `shares its place with ${each}`)];
   return h(
     'div', { class: 'detail' },
     why.nearest_candidate && h('p', {}, `The nearest candidate${nearest ? ` (number ${nearest.rank}, drawn thin)` : ''} is not taken:`),
@@ -102,10 +102,11 @@ function item(scene: Scene, store: Store, named: NamedFeature, turnTo: TurnTo): 
 
 export function featuresPanel(scene: Scene, store: Store, turnTo: TurnTo): HTMLElement {
   const found = scene.features.filter(({ feature }) => feature.present).length;
-  const { probabilities } = scene.result;
+  const { probability_exactness: exactness, probability_error: error } = scene.result;
+  const kind = exactness === 'none' ? 'no probabilities' : exactness === 'bound' ? `probabilities off by at most ${error}` : `probabilities ${exactness}`;
   return h(
     'section', { class: 'panel', 'aria-labelledby': 'features-title' },
-    h('h2', { id: 'features-title' }, 'Features', h('small', {}, `${found} of ${scene.features.length} found${probabilities ? '' : ', no probabilities'}`)),
+    h('h2', { id: 'features-title' }, 'Features', h('small', {}, `${found} of ${scene.features.length} found, ${kind}`)),
     h('ul', { class: 'list' }, scene.features.map((feature) => item(scene, store, feature, turnTo))),
     h('p', { class: 'note' }, `Lengths in the mesh's own unit${scene.document.unit ? ` (${scene.document.unit})` : ''}; ± is one standard deviation.`),
   );

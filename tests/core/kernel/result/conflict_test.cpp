@@ -69,9 +69,9 @@ TEST(Conflict, EveryCandidateBreaksWhatIsNamed) {
 
 TEST(Conflict, InWords) {
   EXPECT_EQ(in_words(ConflictReport{{"r1", "r4"}, {"bottom"}, true}),
-            "every candidate breaks r1 or r4 or shares vertices with bottom");
+            "every candidate breaks r1 or r4 or shares its place with bottom");
   EXPECT_EQ(in_words(ConflictReport{{}, {"rim", "bottom"}, true}),
-            "every candidate shares vertices with rim or bottom");
+            "every candidate shares its place with rim or bottom");
 }
 
 }  // namespace
