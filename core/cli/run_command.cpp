@@ -83,6 +83,9 @@ int run(const RunOptions& options) {
   if (!options.measures.empty() && model.measures.empty())
     throw UsageError("--measures " + options.measures.string() + ": model '" + model.name +
                      "' has no measures; add some under 'measures:', as in height: distance(rim, bottom)");
+  if (!options.save_problem.empty() && has_families(model))
+    throw UsageError("--save-problem " + options.save_problem.string() + ": model '" + model.name +
+                     "' has families, and a problem file has no features in any number; give each instance a name");
   lock_or_compare(options, session, model);
   const Stations stations = session.stations(model);
 

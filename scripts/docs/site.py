@@ -19,8 +19,8 @@ import pages
 
 HERE = Path(__file__).resolve().parent
 KINDS = ["filters", "worksets", "shapes", "relations", "labelers"]
-MODELS = ["cup", "airplane", "pipe-fitting", "neal-1999/cup", "neal-1999/airplane", "neal-1999/pipe-fitting"]
-GUIDE = ["run", "models", "report", "page", "evaluate", "sample", "meshes", "prepare", "problems", "reproducing", "plugins", "abi"]
+MODELS = ["cup", "airplane", "pipe-fitting", "plate", "neal-1999/cup", "neal-1999/airplane", "neal-1999/pipe-fitting"]
+GUIDE = ["run", "models", "families", "report", "page", "evaluate", "sample", "meshes", "prepare", "problems", "reproducing", "plugins", "abi"]
 
 
 def title(page):

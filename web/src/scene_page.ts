@@ -12,6 +12,7 @@ import { helpDialog, listenToKeys, type Key } from './ui/keys';
 import { labelingsPanel } from './ui/labelings_panel';
 import { className } from './ui/marking_tools';
 import { refresh } from './ui/refresh';
+import { familiesPanel } from './ui/families_panel';
 import { measuresPanel } from './ui/measures_panel';
 import { relationsPanel } from './ui/relations_panel';
 import { runPanels } from './ui/run_panel';
@@ -132,7 +133,7 @@ export class ScenePage {
     const { scene, store, marking, viewer } = this;
     refresh(this.navigation, stageNavigation(scene, store, marking));
     refresh(this.detail, ...stageDetail(scene, store, marking));
-    const panels = [featuresPanel(scene, store, (name) => this.turnTo(name)), relationsPanel(scene, store), measuresPanel(scene), labelingsPanel(scene, store), ...runPanels(scene)];
+    const panels = [featuresPanel(scene, store, (name) => this.turnTo(name)), familiesPanel(scene), relationsPanel(scene, store), measuresPanel(scene), labelingsPanel(scene, store), ...runPanels(scene)];
     refresh(this.panel, ...panels.filter((panel): panel is HTMLElement => panel !== null));
     if (!viewer) return;
     compose(viewer, scene, store.state, marking);

@@ -53,6 +53,13 @@ struct ShapeSpec {
   SourceLocation where;
 };
 
+/// How many instances of a feature an object has.
+struct InstanceCount {
+  Index least = 0;
+  std::optional<Index> most = 1;  ///< nothing: any number
+  bool family() const { return !most || *most > 1; }
+};
+
 struct ModelFeature {
   std::string name;
   std::string realises;               ///< abstract object; empty when the model has no abstract part
@@ -60,17 +67,22 @@ struct ModelFeature {
   /// The same for the groups that a second look tries, of sets that no other feature has taken; empty: there is none.
   std::vector<std::string> second_look;
   ShapeSpec shape;
-  std::vector<ShapeSpec> other_shapes;  ///< alternatives to it: of `shape: [cylinder, cone]` all but the first
-  std::vector<Range> ranges;            ///< of the measures that a shape has: what one lacks does not bound it
+  std::vector<ShapeSpec> other_shapes;      ///< alternatives to it: of `shape: [cylinder, cone]` all but the first
+  std::vector<Range> ranges;                ///< of the measures that a shape has: what one lacks does not bound it
   std::optional<Expression> max_fit_error;  ///< t_err of 3.4.1, a length
   double detectability = 1;                 ///< 0 to 1
+  InstanceCount count;                      ///< at most one, as most features have; else a family of instances
   SourceLocation where;
+
+  /// One there must be: a labelling without it pays what it would have been worth.
+  bool required() const { return count.least > 0; }
 };
 
 struct Relationship {
-  std::string name;             ///< r1, r2, ...
-  std::string plugin;           ///< relation type = plugin id
-  std::vector<Index> features;  ///< by index into WorkingModel::features
+  std::string name;    ///< r1, r2, ...
+  std::string plugin;  ///< relation type = plugin id
+  /// By index into Model::features, each once but for a family: named twice it stands for each pair of instances.
+  std::vector<Index> features;
   std::vector<std::pair<std::string, Expression>> arguments;
   std::vector<std::pair<std::string, std::string>> words;  ///< arguments that are texts, checked
   /// In the residual's unit (deg or length), over bb(O); without it the relation's own option decides.

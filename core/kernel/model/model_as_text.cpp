@@ -45,6 +45,10 @@ void write_feature(const ModelFeature& feature, std::size_t width, std::string& 
   const std::string indent(2 + width + 2, ' ');
   out += "  " + padded(feature.name, width) + "  " + shapes_in_words(feature) + " on " + worksets_in_words(feature) +
          ", detectability " + number_in_words(feature.detectability);
+  if (feature.count.family())
+    out += ", instances: " + count_in_words(feature.count);
+  else if (feature.required())
+    out += ", " + count_in_words(feature.count);
   if (!feature.realises.empty()) out += ", realises " + feature.realises;
   out += "\n";
   for (const Range& range : feature.ranges) out += indent + range_in_words(range) + "\n";

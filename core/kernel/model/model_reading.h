@@ -64,6 +64,12 @@ std::vector<ClassRule> read_classes(const YAML::Node& root, const std::vector<Re
 std::vector<ModelMeasure> read_measures(const YAML::Node& root, const std::vector<ModelFeature>& features,
                                         const ModelReading& reading);
 
+/// `count: 4 | 3..8 | 0..` and `required: true`, which is `count: 1`.
+void read_count(const YAML::Node& feature_node, const ModelReading& reading, ModelFeature& feature);
+
+/// What relationships, classes and measures cannot ask of families.
+void check_families(const YAML::Node& root, const Model& model, const ModelReading& reading);
+
 /// "takes 1", "takes 2 or more", "takes 1 to 3"; \param max  0: no upper bound
 std::string arity_in_words(std::uint32_t min, std::uint32_t max);
 bool arity_allows(std::uint32_t min, std::uint32_t max, std::size_t count);

@@ -52,6 +52,13 @@ std::string worksets_in_words(const ModelFeature& feature) {
          (feature.second_look.empty() ? "" : ", at a second look " + joined(feature.second_look));
 }
 
+std::string count_in_words(const InstanceCount& count) {
+  if (!count.family()) return count.least > 0 ? "required" : "";
+  if (!count.most) return count.least == 0 ? "any number" : "at least " + std::to_string(count.least);
+  if (*count.most == count.least) return std::to_string(count.least);
+  return std::to_string(count.least) + " to " + std::to_string(*count.most);
+}
+
 std::string number_in_words(double number) {
   std::array<char, 32> buffer{};
   return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr};

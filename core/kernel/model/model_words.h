@@ -28,6 +28,9 @@ std::string arguments_in_words(const Relationship& relationship);
 std::string worksets_in_words(const ModelFeature& feature);
 
 /// "0.5", the shortest that reads back the same
+/// "3 to 8", "4", "any number of", "at least 2"; of a single feature "required" or nothing.
+std::string count_in_words(const InstanceCount& count);
+
 std::string number_in_words(double number);
 
 }  // namespace toposcope

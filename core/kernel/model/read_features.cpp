@@ -37,6 +37,7 @@ class FeatureReader {
       const std::string& text = detectability.Scalar();  // the schema has seen a number
       std::from_chars(text.data(), text.data() + text.size(), feature.detectability);
     }
+    read_count(node, reading_, feature);
     return feature;
   }
 

@@ -33,6 +33,7 @@ Model model_from_text(const std::string& text, const std::string& file, const Pl
   model.relationships = read_relationships(root, model.features, reading);
   model.classes = read_classes(root, model.relationships, reading);
   model.measures = read_measures(root, model.features, reading);
+  check_families(root, model, reading);
   errors.throw_if_any();
   return model;
 }

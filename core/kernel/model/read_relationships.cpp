@@ -83,10 +83,11 @@ void read_scope(const YAML::Node& node, const std::vector<ModelFeature>& feature
     if (!feature) {
       reading.add(name, "relationship '" + relationship.name + "' names the unknown feature '" + name.Scalar() + "'; " +
                             name_remedy(name.Scalar(), names_of(features)));
-    } else if (std::find(relationship.features.begin(), relationship.features.end(), *feature) !=
-               relationship.features.end()) {
+    } else if (!features[*feature].count.family() &&
+               std::find(relationship.features.begin(), relationship.features.end(), *feature) !=
+                   relationship.features.end()) {
       reading.add(name, "relationship '" + relationship.name + "' names feature '" + name.Scalar() +
-                            "' twice; a relationship holds between different features");
+                            "' twice, of which there is at most one; a relationship holds between different features");
     } else {
       relationship.features.push_back(*feature);
     }

@@ -47,7 +47,12 @@ void label(Analysis& analysis, const Model& model, const Stations& stations, con
   analysis.classes.clear();
   for (ClassOutcome& posed : pose_classes(analysis.problem, model, stations.probability)) {
     analysis.classes.push_back(label_class(std::move(posed), analysis.features, run, request));
-    const ClassOutcome& solved = analysis.classes.back();
+    ClassOutcome& solved = analysis.classes.back();
+    if (has_families(model)) {
+      analysis.instances = write_out_instances(solved, analysis.features, run);
+      solved.answer = solved.outcome.labelings.front();
+    }
+    complete_class(solved);
     explained.push_back({solved.log_evidence, solved.least_cost});
     marginals_ms += solved.marginals_ms;
   }
@@ -68,6 +73,7 @@ Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations,
   label(analysis, model, stations, request, context);
   Stopwatch watch;
   ClassOutcome& best = analysis.classes[analysis.best];
+  if (analysis.instances) return analysis;  // shapes of instances depend on their number: no labeler can tell it
   best.answer = with_most_probable_shapes(best, analysis.features, {analysis.mesh.view(), model, stations, context});
   for (auto& [station, ms] : analysis.timings)
     if (station == "label") ms += watch.lap_ms();

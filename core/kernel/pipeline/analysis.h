@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "pipeline/classes.h"
 #include "pipeline/constructed_features.h"
+#include "pipeline/families.h"
 #include "pipeline/filters.h"
 #include "pipeline/measured_working_sets.h"
 
@@ -25,7 +27,14 @@ struct Analysis {
   std::vector<double> class_evidence;       ///< what `classes` are compared by
   std::vector<double> class_probabilities;  ///< over `classes` and, last, none of them
   std::size_t best = 0;                     ///< the class of greatest evidence
+  std::optional<Instances> instances;       ///< of a model with families, to which `classes` then belong
   Timings timings;
+
+  /// The model that `classes` belong to: the one that was given, with its families written out.
+  const Model& written_out(const Model& model) const { return instances ? instances->model : model; }
+  const Stations& written_out(const Stations& stations) const { return instances ? instances->stations : stations; }
+  /// The feature of the given model that one of it is, or is an instance of.
+  Index origin(Index feature) const { return instances ? instances->origin[feature] : feature; }
 };
 
 /// Runs filter, classify, fit, relate and, where the model has one, the second look, which a first labelling by the

@@ -97,7 +97,7 @@ class Chooser {
     std::sort(choices.begin(), choices.end());
     const std::size_t all = choices.size();
     if (job_.second_look) join_alike(choices, before);
-    choices.resize(std::min(choices.size(), run_.stations.probability.max_candidates));
+    choices.resize(std::min(choices.size(), most_candidates(i)));
     add(fits_.verdicts[i], run_.model.features[job_.features[i]], candidates.count);
     candidates.count.beaten += all - choices.size();
     candidates.count.kept -= all - choices.size();
@@ -114,6 +114,13 @@ class Chooser {
 
  private:
   static constexpr Index not_constructed = std::numeric_limits<Index>::max();
+
+  /// Ten instances have as many candidates as ten features.
+  std::size_t most_candidates(std::size_t i) const {
+    const InstanceCount& count = run_.model.features[job_.features[i]].count;
+    constexpr Index most_times = 10;  // tables of pairs grow with the square
+    return run_.stations.probability.max_candidates * std::min(count.most.value_or(most_times), most_times);
+  }
 
   /// How many groups there would be to choose from, had all been tried.
   double ways_of(std::size_t i) const {

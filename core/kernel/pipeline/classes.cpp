@@ -41,7 +41,7 @@ ClassOutcome part_of(const LabelingProblem& problem, const ClassRule& rule, cons
     const DetectabilityCosts general = detectability_costs(probability, variable.detectability);
     const DetectabilityCosts here = detectability_costs(probability, 1);
     variable.detectability = 1;
-    variable.costs[0] = here.missing;
+    variable.costs[0] += here.missing - general.missing;
     for (std::size_t k = 1; k < variable.costs.size(); ++k) variable.costs[k] += here.present - general.present;
   }
   for (Index r : rule.relationships) {

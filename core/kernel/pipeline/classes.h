@@ -2,14 +2,26 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/model.h"
 #include "pipeline/stations.h"
-#include "toposcope/labeling.h"
+#include "toposcope/labeling/families.h"
 
 namespace toposcope {
+
+/// How many instances of a family there are.
+struct FamilyCount {
+  Index feature = 0;            ///< of the model
+  Index found = 0;              ///< in the labelling of least cost
+  std::vector<double> numbers;  ///< the probability of finding 0, 1, 2, ...; empty: none is made
+  /// Where as many were found as there may be: the probability that there would be more if any number were allowed, and
+  /// the most probable number then.
+  std::optional<std::pair<double, Index>> beyond;
+};
 
 /// The labelling of a model, or of one of its classes.
 struct ClassOutcome {
@@ -27,6 +39,10 @@ struct ClassOutcome {
   double lower_bound = 0;                 ///< the labeler's
   std::uint64_t nodes = 0;                ///< the labeler's
   double label_ms = 0, marginals_ms = 0;  ///< to solve it; without the time to tell features apart
+
+  /// Of a model with families: sets of instances, until these are written out as features.
+  FamilyOutcome sets;
+  std::vector<FamilyCount> families;
 
   bool complete = false;  ///< every feature present, every relationship within tolerance
 };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "pipeline/families.h"
 #include "pipeline/solve.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/tell_apart.h"
@@ -16,12 +17,9 @@
 namespace toposcope {
 namespace {
 
-struct SolveTimes {
-  double label_ms = 0, marginals_ms = 0;
-};
-
 /// Solves a class's problem for its labellings and, where the pipeline says so, again for its probabilities.
 SolveTimes solve_class(ClassOutcome& posed, const ModelRun& run, const LabelingRequest& request) {
+  if (has_families(run.model)) return solve_with_families(posed, run, request);
   const Stations& stations = run.stations;
   SolveTimes times;
   Stopwatch watch;
@@ -51,6 +49,11 @@ void tell_apart(ClassOutcome& posed, const std::vector<std::vector<Index>>& orbi
   bool changed = false;
   for (Index v = 0; v < kept.size(); ++v) changed = changed || kept[v].size() < posed.problem.variables[v].domain();
   if (!changed) return;
+  if (has_families(run.model)) {
+    posed.problem = restricted(posed.problem, kept);
+    solve_with_families(posed, run, request);
+    return;
+  }
   std::size_t largest = 1;  // orbit
   for (const std::vector<Index>& orbit : orbits) largest = std::max(largest, orbit.size());
   LabelingOutcome summed = posed.outcome;
@@ -78,16 +81,26 @@ ClassOutcome label_class(ClassOutcome posed, const ConstructedFeatures& features
   // What differs in names that mean the same is one explanation, not several.
   posed.log_evidence = posed.outcome.log_evidence - std::log(static_cast<double>(names.size()));
   tell_apart(posed, orbits_of(names), features, run, request);
-  const Labeling& best = posed.answer = posed.outcome.labelings.front();
-  posed.complete = std::all_of(best.values.begin(), best.values.end(), [](Index value) { return value > 0; });
-  for (const LabelingConstraint& constraint : posed.problem.constraints)
-    posed.complete = posed.complete && satisfied(constraint, table_entry(posed.problem, constraint, best.values));
+  posed.answer = posed.outcome.labelings.front();
   return posed;
+}
+
+void complete_class(ClassOutcome& solved) {
+  const Labeling& best = solved.answer;
+  solved.complete = std::all_of(best.values.begin(), best.values.end(), [](Index value) { return value > 0; });
+  for (const LabelingConstraint& constraint : solved.problem.constraints)
+    solved.complete = solved.complete && satisfied(constraint, table_entry(solved.problem, constraint, best.values));
 }
 
 std::vector<std::optional<Index>> first_labeling(const LabelingProblem& problem, const ModelRun& run) {
   std::vector<std::optional<Index>> labelled(run.model.features.size());
   double least = std::numeric_limits<double>::infinity();
+  if (has_families(run.model)) {
+    const std::vector<Index> values = best_with_families(problem, run);
+    for (Index f = 0; f < values.size(); ++f)
+      if (values[f] > 0) labelled[f] = problem.variables[f].candidates[values[f] - 1];
+    return labelled;
+  }
   for (const ClassOutcome& posed : pose_classes(problem, run.model, run.stations.probability)) {
     const Labeling best = solve(run.stations.labeler, posed.problem, {}, run.context).labelings.front();
     if (!(best.cost < least)) continue;

@@ -18,6 +18,9 @@ namespace toposcope {
 ClassOutcome label_class(ClassOutcome posed, const ConstructedFeatures& features, const ModelRun& run,
                          const LabelingRequest& request);
 
+/// Says whether its answer has every feature, and every relationship within tolerance.
+void complete_class(ClassOutcome& solved);
+
 /// The constructed feature of each model feature in the labelling of least cost over the classes; nothing: missing.
 /// \throw PluginError
 std::vector<std::optional<Index>> first_labeling(const LabelingProblem& problem, const ModelRun& run);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "pipeline/families.h"
 #include "pipeline/places.h"
 #include "pipeline/relation_table.h"
 #include "probability/likelihood.h"
@@ -20,12 +21,20 @@ LabelingVariable variable_of(const ModelFeature& feature, const FeatureCandidate
   variable.name = feature.name;
   variable.detectability = feature.detectability;
   variable.candidates = candidates.constructed;
-  const DetectabilityCosts costs = detectability_costs(probability, variable.detectability);
+  DetectabilityCosts costs = detectability_costs(probability, variable.detectability);
+  if (feature.count.family()) costs = {0, 0};  // what numbers of instances cost says it
   variable.costs.push_back(costs.missing);
   // A feature that is there is any one of the groups there were to choose from: the prior is shared among them.
   for (std::size_t c = 0; c < candidates.evidence.size(); ++c)
     variable.costs.push_back(costs.present + std::log(candidates.ways[c]) - candidates.evidence[c]);
   return variable;
+}
+
+/// No labelling gains by leaving a required feature out, and so being free of its relationships.
+void charge_required(const Model& model, LabelingProblem& problem) {
+  for (Index v = 0; v < model.features.size(); ++v)
+    if (model.features[v].required() && !model.features[v].count.family())
+      problem.variables[v].costs[0] += worth(problem, v);
 }
 
 /// Whether the variables of one scope have in turn the same candidates as those of the other.
@@ -91,6 +100,7 @@ LabelingProblem relate(const ModelRun& run, const MeasuredWorkingSets& sets, con
     problem.constraints.push_back(relation_table(relations[r], problem, features));
     run.context.progress(static_cast<double>(r + 1) / static_cast<double>(model.relationships.size()));
   }
+  charge_required(model, problem);
   return problem;
 }
 

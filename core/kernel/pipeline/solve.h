@@ -8,6 +8,11 @@
 
 namespace toposcope {
 
+/// What it took to solve a problem, ms.
+struct SolveTimes {
+  double label_ms = 0, marginals_ms = 0;
+};
+
 /// Solves a labelling problem and checks the outcome. \throw PluginError  the labeler threw, or check_outcome did
 LabelingOutcome solve(const LabelerStation& labeler, const LabelingProblem& problem, const LabelingRequest& request,
                       Context& context);

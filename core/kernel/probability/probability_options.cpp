@@ -8,7 +8,7 @@ namespace toposcope {
 std::span<const OptionRow> probability_option_table() {
   static const std::array<OptionRow, 7> table = {{
       {"max_candidates", OptionType::integer, "", "80", "1", "1000",
-       "candidates kept per feature, the best by evidence"},
+       "candidates kept per feature, the best by evidence; of a family up to ten times as many"},
       {"fit_error_scale", OptionType::real, "mean-edges", "0.82", "0.001", "1000",
        "standard deviation of a point's distance from its shape, where the model says nothing"},
       {"sample_spacing", OptionType::real, "mean-edges", "4", "0.1", "1000",

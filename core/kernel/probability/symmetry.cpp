@@ -6,6 +6,8 @@
 #include <set>
 #include <string>
 
+#include "model/model_words.h"
+
 namespace toposcope {
 namespace {
 
@@ -18,6 +20,7 @@ std::string signature(const ModelFeature& feature, bool by_detectability) {
   };
   add_shape(feature.shape);
   for (const ShapeSpec& other : feature.other_shapes) add_shape(other);
+  text += "|count " + count_in_words(feature.count);
   if (by_detectability) text += "|" + std::to_string(feature.detectability);
   for (const std::string& type : feature.worksets) text += "|" + type;
   for (const std::string& type : feature.second_look) text += "|again " + type;

@@ -95,8 +95,8 @@ class Explainer {
     MissingReport report;
     const LabelingVariable& variable = posed_.problem.variables[v];
     if (variable.candidates.empty()) {
-      report.reason =
-          no_candidate(run_.model.features[model_feature], analysis_.features.of_feature[model_feature].count);
+      report.reason = no_candidate(run_.model.features[model_feature],
+                                   analysis_.features.of_feature[analysis_.origin(model_feature)].count);
       return report;
     }
     report.conflict = conflict_of_missing(posed_.problem, best_, v, run_.context);
@@ -177,10 +177,28 @@ class Explainer {
   const Labeling& best_;
 };
 
+FamilyReport report_family(const FamilyCount& count, const Model& model) {
+  const ModelFeature& feature = model.features[count.feature];
+  FamilyReport report;
+  report.name = feature.name;
+  report.allowed = count_in_words(feature.count);
+  report.found = count.found;
+  report.numbers = count.numbers;
+  report.probability =
+      count.found < count.numbers.size() ? count.numbers[count.found] : std::numeric_limits<double>::quiet_NaN();
+  if (count.beyond && count.beyond->first > 0.5) {
+    report.more = count.beyond->first;
+    report.likely = count.beyond->second;
+  }
+  return report;
+}
+
 }  // namespace
 
-Result explain(const Analysis& analysis, const Model& model, const std::string& mesh_path, const Stations& stations,
-               Context& context) {
+Result explain(const Analysis& analysis, const Model& given_model, const std::string& mesh_path,
+               const Stations& given_stations, Context& context) {
+  const Model& model = analysis.written_out(given_model);
+  const Stations& stations = analysis.written_out(given_stations);
   const ClassOutcome& posed = analysis.classes[analysis.best];
   const LabelingOutcome& outcome = posed.outcome;
   const ModelRun run{analysis.mesh.view(), model, stations, context};
@@ -216,10 +234,10 @@ Result explain(const Analysis& analysis, const Model& model, const std::string& 
   }
   if (!model.classes.empty() && posed.complete && analysis.class_evidence[analysis.best] > 0)
     result.class_name = posed.name;
-  for (Index f = 0; f < model.features.size(); ++f) {
-    result.features.push_back(explainer.feature(f));
-    result.candidates.emplace_back(model.features[f].name, analysis.features.of_feature[f].count);
-  }
+  for (Index f = 0; f < model.features.size(); ++f) result.features.push_back(explainer.feature(f));
+  for (Index f = 0; f < given_model.features.size(); ++f)
+    result.candidates.emplace_back(given_model.features[f].name, analysis.features.of_feature[f].count);
+  for (const FamilyCount& count : posed.families) result.families.push_back(report_family(count, given_model));
   std::vector<const FittedShape*> found;
   for (const FeatureReport& report : result.features) found.push_back(report.present ? &report.shape : nullptr);
   result.measurements = measure(model, found, result.box);

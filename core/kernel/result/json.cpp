@@ -103,6 +103,16 @@ Json feature(const FeatureReport& report) {
   return object;
 }
 
+/// Numbers of a probability that counts; others are as good as 0.
+Json family(const FamilyReport& report) {
+  Json object = {{"allowed", report.allowed}, {"found", report.found}, {"probability", number(report.probability)}};
+  object["numbers"] = Json::object();
+  for (std::size_t k = 0; k < report.numbers.size(); ++k)
+    if (report.numbers[k] >= 1e-6) object["numbers"][std::to_string(k)] = report.numbers[k];
+  if (report.more) object["more_than_allowed"] = {{"probability", *report.more}, {"likely_number", report.likely}};
+  return object;
+}
+
 Json measurement(const Measurement& each) {
   Json object = {{"expression", each.expression}, {"unit", each.unit}};
   if (!each.why.empty()) {
@@ -178,6 +188,8 @@ Json document(const Result& result) {
       result.probability_exactness == Exactness::bound ? Json(result.probability_error) : Json(nullptr);
   root["features"] = Json::object();
   for (const FeatureReport& report : result.features) root["features"][report.name] = feature(report);
+  if (!result.families.empty())
+    for (const FamilyReport& report : result.families) root["families"][report.name] = family(report);
   root["relations"] = Json::array();
   for (const RelationReport& report : result.relations) root["relations"].push_back(relation(report));
   if (!result.measurements.all.empty()) {

@@ -48,6 +48,18 @@ struct FeatureReport {
   MissingReport missing;
 };
 
+/// How many instances of a family there are.
+struct FamilyReport {
+  std::string name, allowed;    ///< "3 to 8"
+  Index found = 0;              ///< instances
+  double probability = 0;       ///< that so many would be found; not a number where no sums are made
+  std::vector<double> numbers;  ///< the probability of 0, 1, 2, ...
+  /// There are more than the model allows: how probable that is where any number is allowed, and the likely number
+  /// then.
+  std::optional<double> more;
+  Index likely = 0;
+};
+
 /// How well one class of the model (the model itself when it has no classes) explains the mesh.
 struct ClassReport {
   std::string name;
@@ -88,7 +100,8 @@ struct Result {
   Exactness probability_exactness = Exactness::none;  ///< of the features' probabilities
   double probability_error = 0;                       ///< where that is a `bound`: no probability is off by more
   bool optimal = false;
-  std::vector<FeatureReport> features;
+  std::vector<FeatureReport> features;  ///< of families each instance
+  std::vector<FamilyReport> families;
   std::vector<RelationReport> relations;
   Measurements measurements;
   std::vector<AlternativeReport> alternatives;

@@ -44,6 +44,20 @@ std::string measures_text(const Measurements& measured) {
   return text;
 }
 
+std::string families_text(const std::vector<FamilyReport>& families) {
+  std::string text =
+      fmt::format("\n  {:<14}{:<9}{:<6}  {}\n", "family", "found", "prob.", "instances that the model allows");
+  for (const FamilyReport& report : families) {
+    text += fmt::format("  {:<14}{:<9}{:<6}  {}", report.name, report.found, probability(report.probability),
+                        report.allowed);
+    if (report.more)
+      text += fmt::format("; if it allowed any number there would be {}, and more than {} with probability {:.3f}",
+                          report.likely, report.found, *report.more);
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string to_text(const Result& result) {
@@ -72,6 +86,7 @@ std::string to_text(const Result& result) {
                                               failed.type, failed.residual, failed.unit, failed.tolerance)
                                 : fmt::format("  {:<31}{} {}: {}\n", "", failed.name, failed.type, failed.why);
   }
+  if (!result.families.empty()) text += families_text(result.families);
   if (result.probability_exactness != Exactness::none)
     text += fmt::format("\n  probabilities: {}\n", in_words(result.probability_exactness, result.probability_error));
   std::size_t name = 5, type = 21;  // the columns are as wide as what stands in them

@@ -76,7 +76,8 @@ class SceneMaker {
   /// What the labeler could choose; of a feature that the class does not have, what was constructed.
   Offers offers_of(Index feature) const {
     const std::optional<Index> v = variable_of(feature);
-    return {v, v ? posed_.problem.variables[*v].candidates : analysis_.features.of_feature[feature].constructed};
+    return {v, v ? posed_.problem.variables[*v].candidates
+                 : analysis_.features.of_feature[analysis_.origin(feature)].constructed};
   }
 
   bool named(Index feature, Index rank) const {
@@ -89,7 +90,7 @@ class SceneMaker {
   void add_candidate(Index feature, Index rank, const Offers& offers) {
     const Index constructed = offers.constructed[rank - 1];
     const ConstructedFeature& made = analysis_.features.all[constructed];
-    const FeatureCandidates& all = analysis_.features.of_feature[feature];
+    const FeatureCandidates& all = analysis_.features.of_feature[analysis_.origin(feature)];
     ShownCandidate candidate;
     candidate.feature = model_.features[feature].name;
     candidate.rank = rank;
@@ -162,7 +163,7 @@ Scene make_scene(const Analysis& analysis, const Model& model, const Result& res
   const bool whole = limits.candidates > 0;
   if (whole && (analysis.mesh.filtered || analysis.mesh.coarse))
     scene.normalised = display_mesh(analysis.mesh.view(), {}, limits.triangles);
-  SceneMaker maker(analysis, model, result, limits, scene);
+  SceneMaker maker(analysis, analysis.written_out(model), result, limits, scene);
   if (whole) {
     maker.working_sets();
     maker.candidates();

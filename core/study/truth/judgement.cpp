@@ -52,6 +52,11 @@ double ends_distance(const FittedShape& shape, const std::vector<TruthGroup>& gr
   return std::min(farther(groups[0].centroid, groups[1].centroid), farther(groups[1].centroid, groups[0].centroid));
 }
 
+/// `leg[2]` of the family `leg`.
+bool is_instance(const std::string& name, const ModelFeature& feature) {
+  return feature.count.family() && name.starts_with(feature.name + "[");
+}
+
 class Judge {
  public:
   Judge(const Limits& limits, const Judgement& scale) : limits_(limits), scale_(scale) {}
@@ -72,11 +77,42 @@ class Judge {
     return judged;
   }
 
+  /// Instances have no names of their own: each of the truth's is compared with the nearest that was found and is free,
+  /// the nearest of all first. What is left was missed, or is not there.
+  void instances(const std::vector<const FeatureReport*>& found, const std::vector<const ShapeFitter*>& fitters,
+                 const std::vector<const TruthFeature*>& known, std::vector<FeatureJudgement>& judged) const {
+    struct Match {
+      double excess;
+      std::size_t truth, instance;
+      auto operator<=>(const Match&) const = default;  // NOLINT(modernize-use-nullptr): the check misreads <=>
+    };
+    std::vector<Match> matches;
+    for (std::size_t t = 0; t < known.size(); ++t)
+      for (std::size_t i = 0; i < found.size(); ++i)
+        if (const double excess = feature(*found[i], *fitters[i], *known[t]).excess; std::isfinite(excess))
+          matches.push_back({excess, t, i});
+    std::sort(matches.begin(), matches.end());
+    std::vector<bool> free(found.size(), true);
+    std::vector<const FeatureReport*> match_of(known.size(), nullptr);
+    for (const Match& match : matches) {
+      if (match_of[match.truth] || !free[match.instance]) continue;
+      free[match.instance] = false;
+      match_of[match.truth] = found[match.instance];
+      judged.push_back(feature(*found[match.instance], *fitters[match.instance], *known[match.truth]));
+    }
+    for (std::size_t t = 0; t < known.size(); ++t)
+      if (!match_of[t]) judged.push_back({.feature = known[t]->name, .verdict = Verdict::missed});
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (free[i])
+        judged.push_back(
+            {.feature = found[i]->name, .verdict = Verdict::spurious, .probability = found[i]->probability});
+  }
+
   /// Least excess over all candidates of a feature.
   double best_candidate(const Analysis& analysis, const Model& model, const TruthFeature& truth) const {
     double best = std::numeric_limits<double>::infinity();
     for (Index f = 0; f < model.features.size() && f < analysis.problem.variables.size(); ++f) {
-      if (model.features[f].name != truth.name) continue;
+      if (model.features[f].name != truth.name && !is_instance(truth.name, model.features[f])) continue;
       for (const Index candidate : analysis.problem.variables[f].candidates) {
         FeatureJudgement judged;
         const ConstructedFeature& made = analysis.features.all[candidate];
@@ -140,8 +176,10 @@ double excess_of(const FittedShape& shape, const ShapeFitter& fitter, const Trut
   return judged.excess;
 }
 
-Judgement judge(const Result& result, const Analysis& analysis, const Model& model, const Stations& stations,
-                const Truth& truth, const Limits& limits) {
+Judgement judge(const Result& result, const Analysis& analysis, const Model& given_model,
+                const Stations& given_stations, const Truth& truth, const Limits& limits) {
+  const Model& model = analysis.written_out(given_model);
+  const Stations& stations = analysis.written_out(given_stations);
   const ClassOutcome& posed = analysis.classes[analysis.best];
   Judgement scale;
   scale.mean_edge = truth.mean_edge.value_or(result.mean_edge);
@@ -158,6 +196,7 @@ Judgement judge(const Result& result, const Analysis& analysis, const Model& mod
     Judgement judged = scale;
     double excess = 0;
     for (Index f = 0; f < model.features.size(); ++f) {
+      if (given_model.features[analysis.origin(f)].count.family()) continue;
       const TruthFeature* known = truth.find(model.features[f].name);
       if (!known) continue;
       const FeatureReport& report = result.features[name_of[f]];
@@ -172,9 +211,23 @@ Judgement judge(const Result& result, const Analysis& analysis, const Model& mod
       best_excess = excess;
     }
   }
+  for (Index family = 0; family < given_model.features.size(); ++family) {
+    std::vector<const TruthFeature*> known;
+    for (const TruthFeature& each : truth.features)
+      if (is_instance(each.name, given_model.features[family]) && each.exists()) known.push_back(&each);
+    if (known.empty()) continue;
+    std::vector<const FeatureReport*> found;
+    std::vector<const ShapeFitter*> fitters;
+    for (Index f = 0; f < model.features.size(); ++f)
+      if (analysis.origin(f) == family && result.features[f].present) {
+        found.push_back(&result.features[f]);
+        fitters.push_back(stations.features[f].of_plugin(result.features[f].shape_plugin).fitter.get());
+      }
+    judge.instances(found, fitters, known, best.features);
+  }
   for (FeatureJudgement& judged : best.features)
     if (judged.verdict == Verdict::wrong || judged.verdict == Verdict::missed)
-      judged.offered = judge.best_candidate(analysis, model, *truth.find(judged.feature));
+      judged.offered = judge.best_candidate(analysis, given_model, *truth.find(judged.feature));
   best.mean_edge = scale.mean_edge;
   best.diagonal = scale.diagonal;
   return best;

@@ -120,6 +120,54 @@ TEST_F(Relate, WhatIsKnownIsNotTestedAgain) {
   EXPECT_EQ(tester->tests, 3 + 4) << "three rows for the bar and two for the rod, less two that exclude themselves";
 }
 
+/// The least labelling, and the cost of the least one without the rod.
+struct Least {
+  std::vector<Index> values;
+  double cost = forbidden, without_rod = forbidden;
+};
+Least brute_force(const LabelingProblem& problem) {
+  Least least;
+  for (Index bar = 0; bar < problem.variables[0].domain(); ++bar)
+    for (Index rod = 0; rod < problem.variables[1].domain(); ++rod) {
+      const std::vector<Index> values = {bar, rod};
+      const double cost = cost_of(problem, values);
+      if (rod == 0) least.without_rod = std::min(least.without_rod, cost);
+      if (cost < least.cost) least.cost = cost, least.values = values;
+    }
+  return least;
+}
+
+/// The bar fits best at row 4, too far from the rod at row 1.
+TEST_F(Relate, ARequiredFeatureIsNotLeftOutToEscapeItsRelationship) {
+  stations.probability.crisp = true;
+  features.of_feature[0].evidence = {2, 1, 7};
+  features.of_feature[1] = {{1}, {1}, {1}, {}};
+  features.of_feature[0].ways = {1, 1, 1};
+  for (ModelFeature& feature : model.features) feature.detectability = 0.9;
+  const LabelingProblem optional = problem();
+  const Least dodged = brute_force(optional);
+  EXPECT_THAT(dodged.values, ElementsAre(3, 0));
+
+  model.features[1].count = {1, 1};
+  const LabelingProblem required = problem();
+  const Least kept = brute_force(required);
+  EXPECT_THAT(kept.values, ElementsAre(1, 1));
+  RelationResult apart;
+  apart.tolerance = 2;
+  apart.clutter_density = 0.125;
+  apart.residual = 1;
+  const double worth = 1 + std::log(0.9) + 0.9 * relation_evidence(stations.probability, apart);
+  EXPECT_NEAR(kept.without_rod - dodged.without_rod, worth, 1e-12);
+  EXPECT_EQ(required.variables[1].costs[1], optional.variables[1].costs[1]) << "a labelling that has it pays nothing";
+}
+
+TEST_F(Relate, ARequiredFeatureWithoutCandidatesPaysNothing) {
+  features.of_feature[1] = {};
+  const double optional = problem().variables[1].costs[0];
+  model.features[1].count = {1, 1};
+  EXPECT_EQ(problem().variables[1].costs[0], optional);
+}
+
 /// Sixteen entries of a cost and a violation.
 TEST_F(Relate, TablesBeyondTheRunsMemoryAreRefused) {
   const auto related = [&](std::uint64_t bytes) {
