@@ -7,6 +7,7 @@
 # make packages   the Debian packages
 # make evaluate   measure: made and real meshes against their truth, tables in evaluation/
 # make screenshots   pictures of reports for the docs
+# make failing   a run in which one allocation, write, open or rename fails, for each place that makes one: half an hour
 # make fuzz   fuzz all that reads files, FUZZ_SECONDS for each format (FUZZ="model cfn": these alone)
 PRESET ?= release
 BUILD := build/$(PRESET)
@@ -14,7 +15,7 @@ TOPOSCOPE := $(BUILD)/bin/toposcope
 # Compiling Eigen and Ceres takes about 1 GB a job.
 JOBS ?= $(shell nproc)
 
-.PHONY: all deps configure demo test packages pages docs abi evaluate screenshots bench fuzz format style lint clean
+.PHONY: all deps configure demo test packages pages docs abi evaluate screenshots bench failing fuzz format style lint clean
 all: configure
 	cmake --build $(BUILD) -j $(JOBS)
 
@@ -95,6 +96,10 @@ bench: deps
 	@cmake --preset release -DTOPOSCOPE_BENCH=ON > build/bench.log 2>&1 || { cat build/bench.log; exit 1; }
 	cmake --build build/release -j $(JOBS) --target bench program
 	build/release/bin/bench
+
+failing: configure
+	cmake --build $(BUILD) -j $(JOBS) --target program fail_nth
+	./tests/failing/run.py $(TOPOSCOPE) $(BUILD)/tests/libfail_nth.so
 
 FUZZ_SECONDS ?= 600
 # Findings are left in build/fuzz/findings; the fuzzer says how to repeat one.

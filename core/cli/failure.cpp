@@ -1,14 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "failure.h"
 
+#include <unistd.h>
+
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "base/errors.h"
 
 namespace toposcope::cli {
+namespace {
+
+std::terminate_handler usual_end = std::abort;
+
+/// Takes no memory itself.
+[[noreturn]] void end() noexcept {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    constexpr std::string_view words = "toposcope: out of memory; give less input at once\n";
+    [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, words.data(), words.size());
+    _exit(1);
+  } catch (...) {
+  }
+  usual_end();
+  std::abort();
+}
+
+}  // namespace
 
 Failure present_failure() try { throw; } catch (const Error& error) {
   return {error.what(), error.exit_code};
@@ -27,6 +51,10 @@ Failure present_failure() try { throw; } catch (const Error& error) {
           exhausted ? 1 : 2};
 } catch (const std::exception& error) {
   return {std::string("internal error: ") + error.what(), 1};
+}
+
+void end_in_words_without_memory() {
+  usual_end = std::set_terminate(end);
 }
 
 }  // namespace toposcope::cli

@@ -25,11 +25,9 @@ int dispatch(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 all was done; 1 a fault of the program itself, or no memory left; 2 bad usage, model, pipeline or "
-      "other input but meshes, or an output that cannot be written; 3 a mesh that cannot be used; 4 a plugin that "
-      "cannot "
-      "be used; 130 interrupted. Of several meshes or results, those that can be are done, and the exit code is that "
-      "of "
-      "the first that was not.");
+      "other input but meshes, or an output that cannot be written; 3 a mesh that cannot be used, or with which the "
+      "memory was at an end; 4 a plugin that cannot be used; 130 interrupted. Of several meshes or results, those that "
+      "can be are done, and the exit code is that of the first that was not.");
   int code = 0;
   add_run(app, code);
   add_classify(app, code);
@@ -58,6 +56,7 @@ void occupy_closed_streams() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  end_in_words_without_memory();
   occupy_closed_streams();
   signal(SIGXFSZ, SIG_IGN);  // a file beyond its limit is an error to be told
   try {
