@@ -71,11 +71,13 @@ void Resampler::collapse(Index least_faces, const Limits& limits, Context& conte
   const auto push = [&](Index h) {
     if (h != no_index) queue.push({mesh_.length(h) / goal_.edge, h, ++stamp[h]});
   };
-  for (Index h = 0; h < mesh_.start.size(); ++h)
+  for (Index h = 0; h < mesh_.start.size(); ++h) {
+    if (h % asked_each == 0 && context.cancelled()) return;
     if (mesh_.is_half_edge(h)) push(h);
+  }
   for (std::size_t step = 0; !queue.empty(); ++step) {
     if (mesh_.faces() <= least_faces && (queue.top().cost > too_short || mesh_.faces() <= least_faces / 2)) return;
-    if (step % 1024 == 0 && context.cancelled()) return;
+    if (step % asked_each == 0 && context.cancelled()) return;
     const Candidate candidate = queue.top();
     queue.pop();
     const Index h = candidate.half_edge;

@@ -46,9 +46,11 @@ void Resampler::flip_edge(Index h) {
   mesh_.flip(h);
 }
 
-void Resampler::flip() {
-  for (Index h = 0; h < mesh_.start.size(); ++h)
+void Resampler::flip(const Context& context) {
+  for (Index h = 0; h < mesh_.start.size(); ++h) {
+    if (h % asked_each == 0 && context.cancelled()) return;
     if (mesh_.stands_for_edge(h) && mesh_.opposite[h] != no_index && mesh_.curve[h] == no_index) flip_edge(h);
+  }
 }
 
 // The middle of a vertex's neighbours along its crease, or the centre of the faces around it, weighted by area.
@@ -105,12 +107,15 @@ bool Resampler::move(Index v, const Move& to) {
 void Resampler::relax(Context& context) {
   std::vector<Move> moves(mesh_.position.size());
   context.parallel_for(moves.size(), 512, [&](std::size_t first, std::size_t last) {
+    if (context.cancelled()) return;
     for (std::size_t i = first; i < last; ++i) {
       const auto v = static_cast<Index>(i);
       if (mesh_.outgoing[v] != no_index && mesh_.kind[v] != Kind::corner) moves[v] = wanted(v);
     }
   });
+  if (context.cancelled()) return;
   for (Index v = 0; v < moves.size(); ++v) {
+    if (v % asked_each == 0 && context.cancelled()) return;
     if (mesh_.outgoing[v] == no_index || mesh_.kind[v] == Kind::corner) continue;
     if (!move(v, moves[v])) move(v, placed(v, (mesh_.position[v] + moves[v].point) / 2));
   }

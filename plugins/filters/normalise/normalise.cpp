@@ -51,6 +51,9 @@ class Normalise final : public MeshFilter {
       context.log(LogLevel::warning, "normalise: the surface has no area to speak of; it is left alone");
       return;
     }
+    // A surface that is thinner than the wanted edge has no room for the fewest faces: the edge stays what was asked
+    // for.
+    if (faces_ == 0 && goal.faces <= fewest_faces) goal.edge = wanted_edge(mesh);
     if (faces_ == 0)
       require_memory(mesh, goal.edge, context);
     else
@@ -61,13 +64,14 @@ class Normalise final : public MeshFilter {
     Limits limits{1.5 * goal.edge, std::min(goal.max_change, 0.1 * goal.edge), 0.2};
     Resampler work(surface, goal, limits.change / 2);
     work.split_long(4.0 / 3 * goal.edge, most_faces, context);
-    work.carry_samples();
+    work.carry_samples(context);
     int left = rounds_;
     for (int round = 0; left > 0 && round < rounds_ + more_rounds && !context.cancelled(); ++round) {
       context.progress(static_cast<double>(round) / (rounds_ + 1));
       work.collapse(goal.faces, limits, context);
       work.split_long(0, goal.faces - 1, context);
-      work.flip();
+      work.flip(context);
+      if (context.cancelled()) return;  // of millions of faces the rest takes minutes
       work.relax(context);
       if (work.mesh().faces() > goal.faces && round > 0) {
         limits = {std::min(1.1 * limits.longest, 2 * goal.edge), std::min(1.25 * limits.change, goal.max_change),
@@ -84,6 +88,7 @@ class Normalise final : public MeshFilter {
       }
       if (left > 2) work.split_long(1.4 * goal.edge, 2 * goal.faces, context);
     }
+    if (context.cancelled()) return;
     if (work.mesh().faces() > 1.03 * goal.faces)
       context.log(
           LogLevel::warning,

@@ -61,7 +61,7 @@ void Resampler::split_long(double longest, Index most_faces, const Context& cont
   for (Index h = 0; h < mesh_.start.size(); ++h)
     if (mesh_.stands_for_edge(h)) push(h);
   for (std::size_t split = 0; !queue.empty() && mesh_.faces() < most_faces; ++split) {
-    if (split % 256 == 0 && context.cancelled()) return;
+    if (split % asked_each == 0 && context.cancelled()) return;
     const auto [length, h] = queue.top();
     queue.pop();
     if (length != mesh_.length(h)) continue;  // split since
@@ -92,10 +92,11 @@ void Resampler::split_long(double longest, Index most_faces, const Context& cont
   }
 }
 
-void Resampler::carry_samples() {
+void Resampler::carry_samples(const Context& context) {
   carrying_ = true;
   change_.reserve_faces(mesh_.face_slots());
   for (Index v = 0; v < mesh_.position.size(); ++v) {
+    if (v % asked_each == 0 && context.cancelled()) return;
     if (mesh_.outgoing[v] == no_index) continue;
     Index at = mesh_.outgoing[v] / 3;
     const bool on_curve = mesh_.kind[v] != Kind::smooth;
@@ -109,6 +110,7 @@ void Resampler::carry_samples() {
   // them.
   const double deep = free_change_ / 4;
   for (Index h = 0; h < mesh_.start.size(); ++h) {
+    if (h % asked_each == 0 && context.cancelled()) return;
     if (!mesh_.stands_for_edge(h)) continue;
     const double length = mesh_.length(h);
     double sine = 0;

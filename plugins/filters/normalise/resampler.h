@@ -11,6 +11,9 @@
 
 namespace toposcope::normalise {
 
+/// Steps after which a loop asks whether it is cancelled.
+constexpr Index asked_each = 1024;
+
 /// Lengths in mesh units.
 struct Goal {
   Index faces;
@@ -28,7 +31,7 @@ struct Limits {
 
 /// The operations that lead from the input to a mesh of even edges. Each is refused where it would change the topology,
 /// turn a face over, move a crease, or change the shape by more than it may. All run in a fixed order; what is computed
-/// in parallel is written by index.
+/// in parallel is written by index. Cancelled, each leaves off, and the mesh is whole but may be no further used.
 class Resampler {
  public:
   /// \param free_change  what flips and moves may change the shape by, where it has not changed more before
@@ -39,12 +42,12 @@ class Resampler {
   /// Splits the edges longer than `longest`, longest first, while there are fewer than `most_faces`.
   void split_long(double longest, Index most_faces, const Context& context);
   /// From here on every operation measures its shape change.
-  void carry_samples();
+  void carry_samples(const Context& context);
   /// Collapses edges, those first that cost the least length and shape, while there are more than `least_faces`
   /// or edges too short for the wanted length.
   void collapse(Index least_faces, const Limits& limits, Context& context);
   /// Flips edges towards Delaunay, and where that brings the mesh nearer to the input.
-  void flip();
+  void flip(const Context& context);
   /// Moves the vertices towards the centres of their rings, along the surface.
   void relax(Context& context);
 

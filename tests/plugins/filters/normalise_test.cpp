@@ -255,6 +255,41 @@ TEST(Normalise, RealMeshes) {
   }
 }
 
+/// Is cancelled when it was asked so many times; counts the work that is begun all the same.
+class Impatient final : public Context {
+ public:
+  explicit Impatient(int patience) : patience_(patience) {}
+  int begun_too_late() const { return begun_too_late_; }
+  void log(LogLevel, std::string_view) override {}
+  void progress(double) override { begun_too_late_ += patience_ < 0; }
+  bool cancelled() const override { return patience_ < 0 || --patience_ < 0; }
+  std::uint64_t seed() const override { return 1; }
+  unsigned threads() const override { return 1; }
+  void parallel_for(std::size_t count, std::size_t grain,
+                    const std::function<void(std::size_t, std::size_t)>& body) override {
+    begun_too_late_ += patience_ < 0;
+    test::context().parallel_for(count, grain, body);
+  }
+  std::uint64_t memory_budget() const override { return test::context().memory_budget(); }
+
+ private:
+  mutable int patience_;
+  int begun_too_late_ = 0;
+};
+
+/// Each step of millions of faces takes minutes: cancelled, the next is not begun.
+TEST(Normalise, CancelledItLeavesOff) {
+  const Mesh mesh(make_can(1, 3, 40, 30, 10), "can");
+  for (const int patience : {0, 1, 2, 3, 5, 8, 13, 21, 34, 55, 89, 144}) {
+    Impatient context(patience);
+    Filtered result;
+    result.mesh.input_faces = mesh.view().face_count();
+    test::filter("normalise", {{"faces", "3000"}})->apply(mesh.view(), context, result);
+    EXPECT_EQ(context.begun_too_late(), 0) << patience;
+    EXPECT_TRUE(!result.called || is_manifold(result.mesh)) << patience;
+  }
+}
+
 /// So long for its area that its faces' edges would fit a million times into its length.
 TEST(Normalise, ANeedleTakesWorkInProportion) {
   TriangleSoup needle = make_cylinder(1e-6, 2, 40, 18);
