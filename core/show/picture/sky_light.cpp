@@ -17,6 +17,20 @@ using Vec3f = Eigen::Vector3f;
 constexpr float nothing = -1e30F;
 constexpr float exposure = 1.3F;
 
+struct Ball {
+  Vec3 center;
+  double radius;
+};
+
+/// About all points, as wide as their box asks for.
+Ball ball_about(const std::vector<Vec3>& points) {
+  Vec3 low = Vec3::Constant(1e300), high = -low;
+  for (const Vec3& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  Ball ball{points.empty() ? Vec3(Vec3::Zero()) : Vec3((low + high) / 2), 1e-30};
+  for (const Vec3& p : points) ball.radius = std::max(ball.radius, (p - ball.center).norm());
+  return ball;
+}
+
 /// By direction towards the light in the camera's frame.
 float radiance(const Vec3f& d) {
   static const Vec3f lamp = Vec3f(-0.55F, 0.78F, 0.62F).normalized();
@@ -35,16 +49,27 @@ float spread(float cosine) {
 
 }  // namespace
 
+int light_map_side(const ShadedMesh& surface, std::size_t directions, int wanted) {
+  constexpr double most_drawn = 5e8;  // pixels of all triangles in all maps, about: ordinary objects have 2e7
+  constexpr int fewest = 24;
+  double area = 0;
+  for (const Triangle& t : surface.triangles) {
+    const Vec3& a = surface.positions[t[0]];
+    area += (surface.positions[t[1]] - a).cross(surface.positions[t[2]] - a).norm() / 2;
+  }
+  // Seen from all sides a triangle shows half of its area, and the box around it has twice that.
+  const double side = 2 * ball_about(surface.positions).radius;
+  const double drawn = area / (side * side) * wanted * wanted * static_cast<double>(directions);
+  if (!(drawn > most_drawn)) return wanted;
+  return std::max(std::min(fewest, wanted), static_cast<int>(wanted * std::sqrt(most_drawn / drawn)));
+}
+
 SkyLight::SkyLight(const ShadedMesh& surface, const Eigen::Matrix3d& axes, std::size_t directions, int pixels,
                    Context& context)
-    : directions_(directions), pixels_(pixels) {
-  Vec3 low = Vec3::Constant(1e300), high = -low;
-  for (const Vec3& p : surface.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  const Vec3 center = surface.positions.empty() ? Vec3(Vec3::Zero()) : Vec3((low + high) / 2);
-  double reach = 0;
-  for (const Vec3& p : surface.positions) reach = std::max(reach, (p - center).norm());
-  center_ = center.cast<float>();
-  scale_ = static_cast<float>((pixels - 4) / 2.0 / std::max(reach, 1e-30));
+    : directions_(directions), pixels_(light_map_side(surface, directions, pixels)) {
+  const Ball ball = ball_about(surface.positions);
+  center_ = ball.center.cast<float>();
+  scale_ = static_cast<float>((pixels_ - 4) / 2.0 / ball.radius);
   bias_ = 1.5F / scale_;
 
   const std::vector<Vec3> towards = spread_directions(directions);

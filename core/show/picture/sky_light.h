@@ -9,12 +9,17 @@
 
 namespace toposcope {
 
+/// Side of the maps that shadows are read from, in pixels: `wanted`, or fewer where faces lie over each other so many
+/// times that drawing them all would take minutes.
+/// \param directions  that there is a map of each
+int light_map_side(const ShadedMesh& surface, std::size_t directions, int wanted);
+
 /// Light from all around: brighter from above, a soft lamp at the viewer's upper left, a weak one behind. What the
 /// surface itself hides of it is known from depth maps along many directions, so that hollows and undersides are dark.
 class SkyLight {
  public:
   /// \param axes        of the camera: rows right, up, towards the viewer
-  /// \param directions  how many; \param pixels  of a depth map's side
+  /// \param directions  how many; \param pixels  of a depth map's side, where light_map_side leaves it
   SkyLight(const ShadedMesh& surface, const Eigen::Matrix3d& axes, std::size_t directions, int pixels,
            Context& context);
 

@@ -198,6 +198,24 @@ TEST(SkyLight, IsDarkInHollows) {
     EXPECT_NEAR(around.at(n, n), around.open(n), 0.02F * around.open(n));
 }
 
+/// Faces that fill the box over and over get maps that together have no more pixels than can be drawn in seconds.
+TEST(SkyLight, DrawsSoMuchAndNoMore) {
+  const ShadedMesh sphere = solid_of(test::make_sphere(4), red);
+  EXPECT_EQ(light_map_side(sphere, 192, 176), 176);
+  ShadedMesh fan;  // half-planes about one edge
+  constexpr Index blades = 5000;
+  fan.positions = {Vec3(0, 0, -1), Vec3(0, 0, 1)};
+  for (Index i = 0; i < blades; ++i) {
+    const double angle = 2 * pi * i / blades;
+    fan.positions.emplace_back(std::cos(angle), std::sin(angle), 0);
+    fan.triangles.push_back({0, 1, i + 2});
+  }
+  const int side = light_map_side(fan, 192, 176);
+  EXPECT_GE(side, 24);
+  EXPECT_LE(192.0 * side * side * blades / 4, 6e8);  // each blade has a quarter of the box's square
+  EXPECT_EQ(light_map_side({}, 192, 176), 176);
+}
+
 TEST(Png, IsReadByLibpng) {
   Image image{3, 2, {}};
   for (int i = 0; i < 24; ++i) image.rgba.push_back(static_cast<std::uint8_t>(i * 10));
