@@ -21,12 +21,14 @@ namespace toposcope::fuzz {
 /// \param use  what the program does with a text
 template <class Use>
 int read_document(const std::uint8_t* data, std::size_t size, const Use& use) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
   try {
-    use(std::string(reinterpret_cast<const char*>(data), size));
+    use(text);
   } catch (const Error& error) {
-    const std::string_view what = error.what();
-    if (what.find("json.exception") == what.npos) return 0;
-    std::cerr << "a library's own words: " << what << '\n';
+    // The fuzzer learns the words that are looked for, and gives them to names.
+    constexpr std::string_view words = "json.exception";
+    if (std::string_view(error.what()).find(words) == std::string_view::npos || text.find(words) != text.npos) return 0;
+    std::cerr << "a library's own words: " << error.what() << '\n';
     std::abort();
   }
   return 0;

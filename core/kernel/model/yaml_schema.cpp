@@ -151,6 +151,7 @@ const json& meant(const json& schema, const json& alternatives, const json& entr
 
 /// Of a list whose entries are one of several: each entry gets the schema that it means.
 json with_meant_entries(json schema, const json& document) {
+  if (!document.is_object()) return schema;
   for (const auto& [name, part] : schema["properties"].items()) {
     const json* list = value_at(document, {name});
     if (!list || !list->is_array() || !part.contains("items") || !part["items"].contains("anyOf")) continue;

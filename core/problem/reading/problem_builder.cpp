@@ -2,6 +2,7 @@
 #include "reading/problem_builder.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "toposcope/labeling/tools.h"
 
@@ -63,6 +64,8 @@ void ProblemBuilder::add_table(const ProblemToken& at, std::string name, std::ve
   if (scope.size() < 2) taken_ -= costs.size() * sizeof(double);  // added to what is there
   if (scope.empty()) {
     problem().constant += costs[0];
+    if (!std::isfinite(problem().constant))
+      text_.fail(at, "the functions without variables forbid every labelling; remove this one, or give it a cost");
   } else if (scope.size() == 1) {
     std::vector<double>& own = problem().variables[scope[0]].costs;
     for (std::size_t value = 0; value < own.size(); ++value) own[value] += costs[value];

@@ -51,6 +51,8 @@ TEST(ProblemFiles, RefusalsNameThePlaceAndTheRemedy) {
   EXPECT_THAT(refusal([] { read_uai("a.uai", "MARKOV\n1\n2\n1\n1 0\n\n3\n1 1 1"); }),
               HasSubstr("a.uai:7:1: the function has 3 entries; the domains of its 1 variables make 2"));
   EXPECT_THAT(refusal([] { read_uai("a.uai", "MARKOV\n1\n2\n1\n1 0\n\n2\n1 -1"); }), HasSubstr("are not negative"));
+  EXPECT_THAT(refusal([] { read_uai("a.uai", "MARKOV\n0\n1 0\n1 0"); }),
+              HasSubstr("a.uai:3:3: the functions without variables forbid every labelling"));
   EXPECT_THAT(refusal([] { read_problem_json("a.json", "{}"); }), HasSubstr("toposcope.problem/1"));
   EXPECT_THAT(refusal([] { read_problem_json("a.json", "{\n  \"schema\": ]"); }), HasSubstr("a.json:2:13: is no JSON"));
   const std::string begin = "{\"schema\": \"toposcope.problem/1\",\n\"variables\": [\n {\"name\": \"a\", ";

@@ -117,6 +117,8 @@ TEST_F(DatasetFile, RefusalsNameThePlaceAndTheRemedy) {
            {"meshes: [{kind: cup, faces: [5000], scan: true, decimated: true}]\n", "exclude each other"}})
     EXPECT_THAT(refusal(meshes), HasSubstr(words)) << meshes;
   EXPECT_THROW(read_dataset(folder_ / "absent.yaml"), UsageError);
+  test::write_text(folder_ / "list.yaml", "- {kind: cup, faces: [5000]}\n");
+  EXPECT_THAT(test::refusal([&] { read_dataset(folder_ / "list.yaml"); }), HasSubstr("list.yaml:1:1: the document is"));
 }
 
 }  // namespace
