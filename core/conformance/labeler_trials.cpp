@@ -8,27 +8,13 @@
 #include "base/errors.h"
 #include "inputs.h"
 #include "pipeline/solve.h"
+#include "toposcope/labeling/make_problem.h"
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope {
 namespace {
 
 constexpr double enough_s = 1e6;
-
-LabelingConstraint table_for(const LabelingProblem& problem, std::vector<Index> scope) {
-  LabelingConstraint constraint{.name = "r" + std::to_string(problem.constraints.size()), .scope = std::move(scope)};
-  std::size_t entries = 1;
-  for (const Index v : constraint.scope) entries *= problem.variables[v].domain();
-  constraint.costs.assign(entries, 0);
-  constraint.violations.assign(entries, 0);
-  return constraint;
-}
-
-void set_conflict(LabelingProblem& problem, Index a, Index b) {
-  problem.conflict_bits.resize(problem.candidate_count * problem.conflict_words());
-  problem.conflict_bits[a * problem.conflict_words() + b / 64] |= std::uint64_t{1} << (b % 64);
-  problem.conflict_bits[b * problem.conflict_words() + a / 64] |= std::uint64_t{1} << (a % 64);
-}
 
 struct Shape {
   int variables, candidates, constraints, arity;
@@ -60,7 +46,8 @@ LabelingProblem random_problem(const Shape& shape, std::uint64_t seed) {
     std::iota(scope.begin(), scope.end(), Index{0});
     random.shuffle(scope);
     scope.resize(std::min<std::size_t>(scope.size(), 2 + random.below(static_cast<std::size_t>(shape.arity - 1))));
-    LabelingConstraint constraint = table_for(problem, scope);
+    LabelingConstraint constraint = empty_constraint(problem, scope);
+    constraint.name = "r" + std::to_string(problem.constraints.size());
     std::vector<Index> digits(scope.size(), 0);
     std::size_t entry = 0;
     do {

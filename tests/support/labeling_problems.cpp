@@ -11,20 +11,6 @@
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope::test {
-LabelingConstraint empty_constraint(const LabelingProblem& problem, std::vector<Index> scope) {
-  LabelingConstraint constraint{"", std::move(scope)};
-  std::size_t entries = 1;
-  for (const Index v : constraint.scope) entries *= problem.variables[v].domain();
-  constraint.costs.assign(entries, 0);
-  constraint.violations.assign(entries, 0);
-  return constraint;
-}
-
-void set_conflict(LabelingProblem& problem, Index a, Index b) {
-  problem.conflict_bits.resize(problem.candidate_count * problem.conflict_words());
-  problem.conflict_bits[a * problem.conflict_words() + b / 64] |= std::uint64_t{1} << (b % 64);
-  problem.conflict_bits[b * problem.conflict_words() + a / 64] |= std::uint64_t{1} << (a % 64);
-}
 
 RandomKind random_kind(std::uint64_t seed) {
   Random random(seed ^ 0x9e3779b97f4a7c15ULL);

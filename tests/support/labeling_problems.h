@@ -6,15 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "toposcope/labeling.h"
+#include "toposcope/labeling/make_problem.h"
 
 namespace toposcope::test {
-
-/// A constraint whose every entry costs nothing and is satisfied.
-LabelingConstraint empty_constraint(const LabelingProblem& problem, std::vector<Index> scope);
-
-/// Two candidates exclude each other. Makes room in the table first.
-void set_conflict(LabelingProblem& problem, Index a, Index b);
 
 struct RandomKind {
   int variables = 4, domain = 4, arity = 3, constraints = 5;

@@ -11,6 +11,7 @@
 #include "base/nearest_name.h"
 #include "formats/json_place.h"
 #include "formats/problem_formats.h"
+#include "toposcope/labeling/make_problem.h"
 #include "toposcope/labeling/tools.h"
 
 namespace toposcope {
@@ -182,8 +183,7 @@ class JsonReader {
         return candidate;
       };
       const Index a = member(0), b = member(1);
-      problem.conflict_bits[a * problem.conflict_words() + b / 64] |= std::uint64_t{1} << (b % 64);
-      problem.conflict_bits[b * problem.conflict_words() + a / 64] |= std::uint64_t{1} << (a % 64);
+      set_conflict(problem, a, b);
     });
   }
 

@@ -151,7 +151,7 @@ TEST(ConflictSet, QueensNeedAllThree) {
 TEST(ConflictSet, ExclusionsAreNamedByTheirFeatures) {
   LabelingProblem problem;
   problem.candidate_count = 1;
-  test::set_conflict(problem, 0, 0);
+  set_conflict(problem, 0, 0);
   problem.variables = {{"rim", 1, {0}, {0, 0}}, {"bottom", 1, {0}, {0, 0}}};
   const RunContext context;
   Deadline deadline(60, context);

@@ -93,7 +93,7 @@ LabelingProblem problem_on(const std::vector<Index>& domains, const std::vector<
     for (Index value = 0; value < domain; ++value) variable.costs.push_back(cost());
   }
   for (const auto& [v, w] : links) {
-    LabelingConstraint constraint = test::empty_constraint(problem, {v, w});
+    LabelingConstraint constraint = empty_constraint(problem, {v, w});
     constraint.violations.clear();
     for (double& entry : constraint.costs) entry = hard && random() % 12 == 0 ? forbidden : cost();
     problem.constraints.push_back(std::move(constraint));

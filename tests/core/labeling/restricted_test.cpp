@@ -46,7 +46,7 @@ TEST(Restricted, KeepsNamesAndNumbersOfWhatStays) {
   problem.name = "queens";
   problem.constant = 2;
   problem.candidate_count = 3;
-  for (Index c = 0; c < 3; ++c) test::set_conflict(problem, c, c);
+  for (Index c = 0; c < 3; ++c) set_conflict(problem, c, c);
   problem.variables.push_back({.name = "a", .detectability = 0.5, .candidates = {0, 1, 2}, .costs = {0, 1, 2, 3}});
   problem.variables.push_back(
       {.name = "b", .costs = {4, 5, 6}, .optional = false, .value_names = {"low", "middle", "high"}});

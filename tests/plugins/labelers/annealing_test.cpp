@@ -45,12 +45,12 @@ TEST(Annealing, ReachesWhatWasPlanted) {
 TEST(Annealing, GetsPastExclusions) {
   LabelingProblem problem;
   problem.candidate_count = 3;
-  for (Index c = 0; c < 3; ++c) test::set_conflict(problem, c, c);
+  for (Index c = 0; c < 3; ++c) set_conflict(problem, c, c);
   for (Index v = 0; v < 3; ++v) {
     problem.variables.push_back({.name = "f", .candidates = {0, 1, 2}, .costs = {1, 1, 1}, .optional = false});
     problem.variables[v].costs[(v + 1) % 3] = 0;
   }
-  LabelingConstraint together = test::empty_constraint(problem, {0, 1, 2});
+  LabelingConstraint together = empty_constraint(problem, {0, 1, 2});
   std::fill(together.costs.begin(), together.costs.end(), 20);
   together.costs[table_entry(problem, together, std::vector<Index>{0, 1, 2})] = 5;
   together.costs[table_entry(problem, together, std::vector<Index>{1, 2, 0})] = 0;

@@ -46,11 +46,11 @@ TEST(Backtracking, QueensAreCountedAndRelaxationVisitsFewerNodes) {
 LabelingProblem worked_example() {
   LabelingProblem problem;
   problem.candidate_count = 4;
-  for (Index w = 0; w < 4; ++w) test::set_conflict(problem, w, w);
+  for (Index w = 0; w < 4; ++w) set_conflict(problem, w, w);
   for (const auto& [name, detectability] : {std::pair{"f1", 1.0}, {"f2", 0.75}, {"f3", 0.9}})
     problem.variables.push_back({name, detectability, {0, 1, 2, 3}, {3, 0, 0, 0, 0}});
   const auto relate = [&](const char* name, Index f, Index g, std::vector<std::pair<Index, Index>> pairs) {
-    LabelingConstraint constraint = test::empty_constraint(problem, {f, g});
+    LabelingConstraint constraint = empty_constraint(problem, {f, g});
     constraint.name = name;
     for (Index v = 1; v <= 4; ++v)
       for (Index w = 1; w <= 4; ++w) constraint.violations[5 * v + w] = 2;

@@ -226,7 +226,7 @@ TEST(DiscreteRelaxation, FourQueens) {
 TEST(DiscreteRelaxation, TellsTheExclusionAndWhatActsTogether) {
   LabelingProblem problem;
   problem.candidate_count = 2;
-  for (Index c = 0; c < 2; ++c) test::set_conflict(problem, c, c);
+  for (Index c = 0; c < 2; ++c) set_conflict(problem, c, c);
   problem.variables = {{"rim", 1, {0}, {0, 0}}, {"edge", 1, {0, 1}, {0, 0, 0}}};
   LabelingOutcome outcome = relax(problem, "never", false);
   ASSERT_EQ(outcome.removed.size(), 1U);
@@ -236,7 +236,7 @@ TEST(DiscreteRelaxation, TellsTheExclusionAndWhatActsTogether) {
   ASSERT_EQ(outcome.labelings.size(), 1U);
   EXPECT_EQ(outcome.labelings[0].values, (std::vector<Index>{1, 2}));
 
-  LabelingConstraint r1 = test::empty_constraint(problem, {0, 1});
+  LabelingConstraint r1 = empty_constraint(problem, {0, 1});
   r1.name = "r1";
   r1.violations[1 * 3 + 2] = 2;
   problem.constraints.push_back(r1);
@@ -245,7 +245,7 @@ TEST(DiscreteRelaxation, TellsTheExclusionAndWhatActsTogether) {
   ASSERT_FALSE(outcome.removed.empty());
   EXPECT_EQ(outcome.removed.back().reason, "no value of 'rim' meets 'r1' with it");
   problem.variables[0] = {"rim", 1, {0, 1}, {0, 0, 0}};
-  problem.constraints = {test::empty_constraint(problem, {0, 1})};
+  problem.constraints = {empty_constraint(problem, {0, 1})};
   problem.constraints[0].name = "r1";
   problem.constraints[0].violations[1 * 3 + 2] = 2;
   problem.constraints[0].violations[2 * 3 + 1] = 2;

@@ -26,7 +26,7 @@ LabelingProblem chain(Index length, Index domain) {
     for (Index value = 0; value < domain; ++value) variable.costs.push_back(cost());
   }
   for (Index v = 0; v + 1 < length; ++v) {
-    LabelingConstraint constraint = test::empty_constraint(problem, {v, v + 1});
+    LabelingConstraint constraint = empty_constraint(problem, {v, v + 1});
     constraint.violations.clear();
     for (double& entry : constraint.costs) entry = cost();
     problem.constraints.push_back(std::move(constraint));

@@ -24,7 +24,7 @@ LabelingProblem chain(Index length, double scale) {
     variable.costs = {scale * std::sin(v + 1.0), scale * std::cos(3.0 * v)};
   }
   for (Index v = 0; v + 1 < length; ++v) {
-    LabelingConstraint constraint = test::empty_constraint(problem, {v, v + 1});
+    LabelingConstraint constraint = empty_constraint(problem, {v, v + 1});
     constraint.violations.clear();
     for (Index e = 0; e < 4; ++e) constraint.costs[e] = scale * std::sin(5.0 * v + 2.0 * e);
     problem.constraints.push_back(std::move(constraint));

@@ -27,11 +27,11 @@ LabelingProblem large(Index variables, Index candidates, int tables) {
       variable.costs.push_back(6 * draw() - 2);
     }
   }
-  for (Index a = 0; a < problem.candidate_count; ++a) test::set_conflict(problem, a, a);
+  for (Index a = 0; a < problem.candidate_count; ++a) set_conflict(problem, a, a);
   for (Index v = 0; v < variables; ++v)
     for (Index w = v + 1; w < variables; ++w) {
       if (draw() * variables * (variables - 1) / 2 > tables) continue;
-      LabelingConstraint constraint = test::empty_constraint(problem, {v, w});
+      LabelingConstraint constraint = empty_constraint(problem, {v, w});
       constraint.violations.clear();
       for (Index e = 0; e < constraint.costs.size(); ++e)
         if (e % (candidates + 1) != 0 && e > candidates) constraint.costs[e] = 6 * draw() - 2;
@@ -85,7 +85,7 @@ TEST(Posterior, ASearchThatNeedsTooMuchMemoryIsNotBegun) {
   for (Index v = 0; v < side * side; ++v)
     for (const Index w : {v % side + 1 < side ? v + 1 : v, v + side}) {
       if (w == v || w >= side * side) continue;
-      LabelingConstraint constraint = test::empty_constraint(grid, {v, w});
+      LabelingConstraint constraint = empty_constraint(grid, {v, w});
       constraint.violations.clear();
       constraint.costs = {0, 0.5, 0.5, 0};
       grid.constraints.push_back(std::move(constraint));

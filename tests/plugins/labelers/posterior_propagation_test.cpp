@@ -28,7 +28,7 @@ LabelingProblem random_forest(std::uint64_t seed) {
     if (draw.below(5) == 0) continue;
     std::vector<Index> scope{static_cast<Index>(draw.below(v)), v};
     if (v + 1 < problem.variables.size() && draw.below(3) == 0) scope.insert(scope.begin(), ++v);
-    LabelingConstraint constraint = test::empty_constraint(problem, scope);
+    LabelingConstraint constraint = empty_constraint(problem, scope);
     for (double& cost : constraint.costs)
       cost = draw.below(8) == 0 ? forbidden : static_cast<double>(draw.below(1000)) / 100 - 5;
     problem.constraints.push_back(std::move(constraint));

@@ -64,7 +64,7 @@ TEST(Posterior, BoundFarBelowTheEvidence) {
   LabelingProblem problem;
   for (int i = 0; i < 3; ++i) problem.variables.push_back({.name = "v", .costs = {-1000, 0, 0.5}, .optional = false});
   for (const auto& scope : {std::vector<Index>{0, 1}, {1, 2}, {0, 2}}) {
-    LabelingConstraint constraint = test::empty_constraint(problem, scope);
+    LabelingConstraint constraint = empty_constraint(problem, scope);
     constraint.violations.clear();
     constraint.costs[0] = forbidden;
     if (scope[0] == 0 && scope[1] == 2) constraint.costs[8] = 700;
@@ -77,7 +77,7 @@ TEST(Posterior, BoundFarBelowTheEvidence) {
 TEST(Posterior, NoLabellingOfFiniteCost) {
   LabelingProblem pigeons;  // three in two holes
   pigeons.candidate_count = 2;
-  for (Index a = 0; a < 2; ++a) test::set_conflict(pigeons, a, a);
+  for (Index a = 0; a < 2; ++a) set_conflict(pigeons, a, a);
   for (int i = 0; i < 3; ++i)
     pigeons.variables.push_back({.name = "p", .candidates = {0, 1}, .costs = {0, 0}, .optional = false});
   for (const char* method : {"auto", "elimination", "search"}) {

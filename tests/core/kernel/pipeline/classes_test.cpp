@@ -25,7 +25,7 @@ struct Classes : ::testing::Test {
     model.name = "vessel";
     problem.name = "vessel";
     problem.candidate_count = 3;
-    for (Index c = 0; c < 3; ++c) test::set_conflict(problem, c, c);
+    for (Index c = 0; c < 3; ++c) set_conflict(problem, c, c);
     for (const char* name : {"rim", "handle", "spout"}) {
       model.features.emplace_back().name = name;
       const Index candidate = static_cast<Index>(problem.variables.size());
@@ -36,7 +36,7 @@ struct Classes : ::testing::Test {
       Relationship& relationship = model.relationships.emplace_back();
       relationship.features = scope;
       relationship.plugin = "parallel";
-      LabelingConstraint& constraint = problem.constraints.emplace_back(test::empty_constraint(problem, scope));
+      LabelingConstraint& constraint = problem.constraints.emplace_back(empty_constraint(problem, scope));
       constraint.name = relationship.name = "r" + std::to_string(model.relationships.size());
     }
     stations.relationships.resize(3);

@@ -15,19 +15,9 @@
 namespace toposcope {
 namespace {
 
-constexpr const char* two_bars = R"(
-schema: toposcope.model/1
-name: bars
-features:
-  bar: {worksets: [convex], shape: lgrp1}
-  rod: {worksets: [convex], shape: lgrp1}
-relationships:
-  r1: {features: [bar, rod], type: parallel}
-)";
-
 /// Of a bar the candidates are the first row, the first two rows, which is the same shape, and the rows 8 and 12.
 struct MostProbableShapes : ::testing::Test, test::Rows {
-  MostProbableShapes() : Rows(two_bars, 20) {
+  MostProbableShapes() : Rows(test::two_bars, 20) {
     add_rows(0, 0);
     add_rows(0, 1);
     add_rows(8, 8);

@@ -19,6 +19,16 @@
 
 namespace toposcope::test {
 
+inline constexpr const char* two_bars = R"(
+schema: toposcope.model/1
+name: bars
+features:
+  bar: {worksets: [convex], shape: lgrp1}
+  rod: {worksets: [convex], shape: lgrp1}
+relationships:
+  r1: {features: [bar, rod], type: parallel}
+)";
+
 /// Rows of a flat grid of 20 x `rows` quads, one apart.
 struct Rows {
   Rows(const char* text, int rows) : mesh(make_grid(20, rows, 20, rows), "grid") {

@@ -12,19 +12,9 @@
 namespace toposcope {
 namespace {
 
-constexpr const char* two_bars = R"(
-schema: toposcope.model/1
-name: bars
-features:
-  one: {worksets: [convex], shape: lgrp1}
-  other: {worksets: [convex], shape: lgrp1}
-relationships:
-  r1: {features: [one, other], type: parallel}
-)";
-
 /// Rows of a grid as working sets.
 struct Bars : ::testing::Test, test::Rows {
-  Bars() : Rows(two_bars, 20) {
+  Bars() : Rows(test::two_bars, 20) {
     add_rows(2, 2);
     add_rows(8, 8);
   }

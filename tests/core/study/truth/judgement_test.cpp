@@ -97,7 +97,8 @@ TEST_F(Judging, ACircleAnywhereInItsBand) {
   in_band.parameters = {{"center", {0, 0, 5}}, {"normal", {0, 0, 1}}, {"band", {1.5, 1}}};
   EXPECT_EQ(only(marked("rim", ring(1.5, 5))).verdict, Verdict::wrong);
   EXPECT_NEAR(only(in_band).distance, 0, 1e-9);
-  result_.features[0].shape.parameters[2].values = {1.7};
+  for (ShapeParameter& parameter : result_.features[0].shape.parameters)
+    if (parameter.name == "radius") parameter.values = {1.7};
   EXPECT_NEAR(only(in_band).distance, 0.2, 1e-9) << "beyond the band its edge counts";
 }
 
