@@ -101,21 +101,23 @@ int main(int argc, char** argv) {
   double limit_s = 10;
   app.add_option("--seeds", seeds, "problems of each kind")->capture_default_str();
   app.add_option("--limit", limit_s, "seconds for each problem")->capture_default_str();
+  std::string only;
+  app.add_option("--kind", only, "of these alone: planted, random, auction or warehouses");
   CLI11_PARSE(app, argc, argv);
   fmt::print("{}", markdown_header(columns));
+  std::vector<Kind> kinds;
   for (const bool structured : {true, false})
-    for (const auto& [features, candidates] : {std::pair<Index, Index>{8, 20}, {12, 50}, {20, 60}, {40, 60}}) {
-      const test::PlantedKind kind{.features = features, .candidates = candidates, .structured = structured};
-      row({structured ? "planted" : "random", fmt::format("{} x {}", features, candidates),
-           [&](std::uint64_t seed) { return test::planted_problem(kind, seed); }},
-          seeds, limit_s);
-    }
+    for (const auto& [features, candidates] : {std::pair<Index, Index>{8, 20}, {12, 50}, {20, 60}, {40, 60}})
+      kinds.push_back(
+          {structured ? "planted" : "random", fmt::format("{} x {}", features, candidates),
+           [kind = test::PlantedKind{.features = features, .candidates = candidates, .structured = structured}](
+               std::uint64_t seed) { return test::planted_problem(kind, seed); }});
   for (const auto& [goods, bids] : {std::pair<Index, Index>{20, 60}, {40, 100}, {60, 150}, {80, 200}})
-    row({"auction", fmt::format("{} goods, {} bids", goods, bids),
-         [&](std::uint64_t seed) { return test::auction(goods, bids, seed); }},
-        seeds, limit_s);
+    kinds.push_back({"auction", fmt::format("{} goods, {} bids", goods, bids),
+                     [=](std::uint64_t seed) { return test::auction(goods, bids, seed); }});
   for (const auto& [places, stores] : {std::pair<Index, Index>{15, 30}, {25, 50}, {40, 80}})
-    row({"warehouses", fmt::format("{} for {} stores", places, stores),
-         [&](std::uint64_t seed) { return test::warehouses(places, stores, seed); }},
-        seeds, limit_s);
+    kinds.push_back({"warehouses", fmt::format("{} for {} stores", places, stores),
+                     [=](std::uint64_t seed) { return test::warehouses(places, stores, seed); }});
+  for (const Kind& kind : kinds)
+    if (only.empty() || only == kind.name) row(kind, seeds, limit_s);
 }

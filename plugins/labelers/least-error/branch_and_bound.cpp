@@ -45,8 +45,14 @@ bool BranchAndBound::propagate() {
 
 bool BranchAndBound::root() {
   if (!propagate()) return false;
+  // Functions that only forbid cannot use what is spread over them: there the proofs come first.
+  const bool proofs_first = network_.mostly_crisp();
+  const auto prove = [&] {
+    if (settings_.virtual_consistency) VirtualConsistency(network_).enforce(cutoff(), deadline_);
+  };
+  if (proofs_first) prove();
   if (!consistency_.spread(cutoff(), settings_.root_sweeps, root_gain)) return false;
-  if (settings_.virtual_consistency) VirtualConsistency(network_).enforce(cutoff(), deadline_);
+  if (!proofs_first) prove();
   consistency_.touch_all();
   return propagate();
 }

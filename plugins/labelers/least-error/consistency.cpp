@@ -2,34 +2,36 @@
 #include "consistency.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace toposcope::least_error {
 
-int Consistency::Queue::pop_last() {
-  const int v = items.back();
-  items.pop_back();
-  in[static_cast<std::size_t>(v)] = 0;
-  return v;
+void Consistency::Queue::push(int variable) {
+  if (in_[static_cast<std::size_t>(variable)]) return;
+  in_[static_cast<std::size_t>(variable)] = 1;
+  heap_.push_back(order_ == Order::least_first ? -variable : variable);
+  if (order_ != Order::any) std::push_heap(heap_.begin(), heap_.end());
 }
 
-int Consistency::Queue::pop_greatest() {
-  std::iter_swap(std::max_element(items.begin(), items.end()), items.end() - 1);
-  return pop_last();
-}
-
-int Consistency::Queue::pop_least() {
-  std::iter_swap(std::min_element(items.begin(), items.end()), items.end() - 1);
-  return pop_last();
+int Consistency::Queue::pop() {
+  if (order_ != Order::any) std::pop_heap(heap_.begin(), heap_.end());
+  const int variable = order_ == Order::least_first ? -heap_.back() : heap_.back();
+  heap_.pop_back();
+  in_[static_cast<std::size_t>(variable)] = 0;
+  return variable;
 }
 
 void Consistency::Queue::clear() {
-  for (const int v : items) in[static_cast<std::size_t>(v)] = 0;
-  items.clear();
+  for (const int key : heap_) in_[static_cast<std::size_t>(std::abs(key))] = 0;
+  heap_.clear();
 }
 
-Consistency::Consistency(SoftNetwork& network, Deadline& deadline) : network_(network), deadline_(deadline) {
-  const auto n = static_cast<std::size_t>(network.variables());
-  for (Queue* queue : {&arc_, &directional_, &existential_}) queue->in.assign(n, 0);
+Consistency::Consistency(SoftNetwork& network, Deadline& deadline)
+    : network_(network),
+      deadline_(deadline),
+      arc_(Order::any, static_cast<std::size_t>(network.variables())),
+      directional_(Order::greatest_first, static_cast<std::size_t>(network.variables())),
+      existential_(Order::least_first, static_cast<std::size_t>(network.variables())) {
   int widest = 1;
   for (int v = 0; v < network.variables(); ++v) {
     widest = std::max(widest, network.size(v));
@@ -166,13 +168,13 @@ bool Consistency::run() {
           });
       if (!alive) return false;
     } else if (!arc_.empty()) {
-      const int v = arc_.pop_last();
+      const int v = arc_.pop();
       if (!others(v, false, [&](int f, int side) { return simple_supports(f, side); })) return false;
     } else if (!directional_.empty()) {
-      const int v = directional_.pop_greatest();
+      const int v = directional_.pop();
       if (!others(v, true, [&](int f, int side) { return full_supports(f, side); })) return false;
     } else if (!existential_.empty()) {
-      if (!existential_support(existential_.pop_least())) return false;
+      if (!existential_support(existential_.pop())) return false;
     } else {
       return true;
     }

@@ -34,20 +34,20 @@ class Consistency {
   Cost level(int value) const { return level_[static_cast<std::size_t>(value)]; }
 
  private:
-  struct Queue {
-    std::vector<char> in;
-    std::vector<int> items;  ///< not in order
-    void push(int v) {
-      if (!in[static_cast<std::size_t>(v)]) {
-        in[static_cast<std::size_t>(v)] = 1;
-        items.push_back(v);
-      }
-    }
-    bool empty() const { return items.empty(); }
-    int pop_last();  ///< any
-    int pop_greatest();
-    int pop_least();
+  enum class Order { any, greatest_first, least_first };
+  /// Of variables, each once.
+  class Queue {
+   public:
+    Queue(Order order, std::size_t variables) : order_(order), in_(variables, 0) {}
+    void push(int variable);
+    bool empty() const { return heap_.empty(); }
+    int pop();
     void clear();
+
+   private:
+    Order order_;
+    std::vector<char> in_;
+    std::vector<int> heap_;  ///< greatest first; of keys: the variable, or minus the variable
   };
 
   bool node_consistent(int variable);

@@ -61,6 +61,8 @@ class SoftNetwork {
   BinaryFunction& function(int f) { return functions_[f]; }
   const BinaryFunction& function(int f) const { return functions_[f]; }
   std::size_t function_count() const { return functions_.size(); }
+  /// Most functions forbid and cost nothing else, as they were made.
+  bool mostly_crisp() const { return 2 * crisp_ > functions_.size(); }
   Cost* moved(const BinaryFunction& f, int side) { return costs_.data() + f.moved[side]; }
   const Cost* moved(const BinaryFunction& f, int side) const { return costs_.data() + f.moved[side]; }
 
@@ -158,6 +160,7 @@ class SoftNetwork {
 
   const LabelingProblem& problem_;
   bool complete_ = true, infeasible_ = false;
+  std::size_t crisp_ = 0;  ///< functions
   /// Of a sum in steps: rounding alone.
   static constexpr double exact_error = 1e-3;
   double offset_ = 0, scale_ = 1, error_ = 0;

@@ -250,6 +250,8 @@ void SoftNetwork::complete_functions() {
         if (excludes(x, static_cast<int>(a), y, static_cast<int>(b))) cost = infinite;
         f.table[1][b * rows + a] = cost;
       }
+    crisp_ +=
+        std::all_of(f.table[0].begin(), f.table[0].end(), [](Cost cost) { return cost == 0 || is_forbidden(cost); });
   }
   released_.assign(delayed_.size(), 0);
   for (std::size_t f = 0; f < functions_.size(); ++f)
