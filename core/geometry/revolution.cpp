@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "toposcope/geometry/chords.h"
 #include "toposcope/geometry/point_sets.h"
 #include "toposcope/geometry/turn_coverage.h"
 
@@ -101,13 +102,13 @@ std::optional<PlaneCircle> plane_circle(std::span<const std::array<double, 2>> p
 namespace revolution {
 
 std::optional<RevolutionAccount> account_for(const RevolutionKind& kind, const Revolution& surface,
-                                             const FitInput& input, const PrincipalAxes& principal, double reach,
-                                             FittedShape& shape) {
+                                             const FitInput& input, const PrincipalAxes& principal,
+                                             const Witnesses& witnesses, FittedShape& shape) {
   const Freedom freedom = kind.freedom();
   const int size = freedom.count();
   RevolutionAccount account;
   account.freedom = freedom;
-  account.reach = reach;
+  account.reach = witnesses.reach;
   // The first direction points at the points' centroid where that is off the axis.
   account.frame = frame_about(surface.axis, principal);
   const Vec3 arm = principal.centroid - surface.origin, side = arm - arm.dot(surface.axis) * surface.axis;
@@ -124,24 +125,26 @@ std::optional<RevolutionAccount> account_for(const RevolutionKind& kind, const R
 
   const double edge = input.mean_edge;
   std::vector<double> angles;
+  std::vector<Vec3> counted;
   double widest = 0;
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd gradient(size);
-  std::size_t inliers = 0;
   double squares = 0, left_out = 0, mean = 0, mean_square = 0;
   account.low = std::numeric_limits<double>::infinity(), account.high = -account.low;
   for (std::size_t i = 0; i < input.points.size(); ++i) {
     const Vec3& point = input.points[i];
     const double d = signed_distance(kind, freedom, surface, {account.frame, account.frame}, point, gradient.data());
-    if (!(std::abs(d) <= reach)) {
+    if (!(std::abs(d) <= witnesses.reach)) {
       left_out += input.areas[i];
       continue;
     }
-    ++inliers;
-    squares += d * d;
     account.area += input.areas[i];
-    gradient.array() *= unit.array();
-    information += gradient * gradient.transpose();
+    if (!witnesses.read_only || was_read(input, i)) {
+      counted.push_back(point);
+      squares += d * d;
+      gradient.array() *= unit.array();
+      information += gradient * gradient.transpose();
+    }
     const auto [radius, height] = position(surface, point);
     const Vec3 out = point - surface.origin;
     angles.push_back(std::atan2(out.dot(account.frame[1]), out.dot(account.frame[0])));
@@ -149,20 +152,20 @@ std::optional<RevolutionAccount> account_for(const RevolutionKind& kind, const R
     account.low = std::min(account.low, height), account.high = std::max(account.high, height);
     mean += height, mean_square += height * height;
   }
-  if (inliers < static_cast<std::size_t>(size)) {
+  if (counted.size() < static_cast<std::size_t>(size)) {
     shape.summary.termination = Termination::failed;
-    shape.summary.message = std::to_string(inliers) + " of " + std::to_string(input.points.size()) +
+    shape.summary.message = std::to_string(counted.size()) + " of " + std::to_string(input.points.size()) +
                             " points lie near the " + kind.name() + ": " + std::to_string(size) +
                             " are needed (option 'scale')";
     return std::nullopt;
   }
-  const double n = static_cast<double>(inliers);
+  const double n = static_cast<double>(counted.size()), all = static_cast<double>(angles.size());
   // Where the surface is widest a point stands for the least part of the turn.
   TurnCoverage covered(2 * pi * widest / edge);
   for (const double angle : angles) covered.add(angle, 2 * pi * widest / edge);
   account.turn = covered.part();
   account.samples = std::clamp(account.area / (edge * edge), 1.0, n);
-  account.position_variance = std::max(0.0, mean_square / n - mean * mean / (n * n));
+  account.position_variance = std::max(0.0, mean_square / all - mean * mean / (all * all));
   shape.rms = std::sqrt(squares / n);
   shape.explained = std::sqrt(account.area) / edge;
   shape.unexplained = std::sqrt(left_out) / edge;
@@ -171,9 +174,10 @@ std::optional<RevolutionAccount> account_for(const RevolutionKind& kind, const R
   const double rounding = 1e-16 * (input.object_box.diagonal() + surface.origin.norm());
   const double variance = std::max(squares / std::max(1.0, n - size), rounding * rounding);
   const double limit = std::pow(surface.profile[0], 2) + std::pow(input.box.diagonal(), 2);
-  const RowMajor covariance =
+  Eigen::MatrixXd covariance =
       unit.asDiagonal() * inverse_up_to(information * (account.samples / n / variance), limit) * unit.asDiagonal();
-  account.covariance.assign(covariance.data(), covariance.data() + covariance.size());
+  add_what_is_hidden(kind, surface, account, {chord_ends(input, kind, surface, witnesses.reach), variance}, covariance);
+  account.covariance.assign(covariance.data(), covariance.data() + covariance.size());  // symmetric
   return account;
 }
 
@@ -202,8 +206,9 @@ FittedShape RevolutionFitter::fit(const FitInput& input, const Options& /*argume
   revolution::Estimate found = revolution::estimate(kind, input.points, principal, noise_floor_scales * scale);
   shape.summary = std::move(found.summary);
   if (!shape.summary.usable()) return shape;
+  const bool moved = revolution::move_to_read(kind, input, principal, 2 * scale, noise_floor_scales * scale, found);
   found.surface = kind.settled(found.surface);
-  const auto account = revolution::account_for(kind, found.surface, input, principal, 2 * scale, shape);
+  const auto account = revolution::account_for(kind, found.surface, input, principal, {2 * scale, moved}, shape);
   if (!account) return shape;
   if (const std::string reason = kind.report(found.surface, *account, input, shape); !reason.empty()) {
     shape.summary.termination = Termination::degenerate;

@@ -95,13 +95,27 @@ class Search {
       start.value = quantile_of(some_, start.surface);
       if (start.value < best.value) best = start;
     }
-    Estimate estimate;
     if (!std::isfinite(best.value)) {
-      estimate.summary.message = std::string("no ") + kind_.name() + " is found near the points";
-      return estimate;
+      Estimate none;
+      none.summary.message = std::string("no ") + kind_.name() + " is found near the points";
+      return none;
     }
-    estimate.surface = best.surface;
-    double noise = std::max(best.value / quantile_in_sd, noise_floor_), initial_cost = 0;
+    return refined(best.surface, best.value);
+  }
+
+  Estimate refined(const Revolution& start) { return refined(start, quantile_of(all_, start)); }
+
+ private:
+  struct Start {
+    double value = std::numeric_limits<double>::infinity();
+    Revolution surface;
+  };
+
+  /// \param distance  from the start, the quantile of the points
+  Estimate refined(const Revolution& start, double distance) {
+    Estimate estimate;
+    estimate.surface = start;
+    double noise = std::max(distance / quantile_in_sd, noise_floor_), initial_cost = 0;
     for (int round = 0; round < 3; ++round) {
       noise = noise_of(all_, estimate.surface, noise);
       // The first rounds only serve to find the noise.
@@ -112,12 +126,6 @@ class Search {
     estimate.summary.initial_cost = initial_cost;
     return estimate;
   }
-
- private:
-  struct Start {
-    double value = std::numeric_limits<double>::infinity();
-    Revolution surface;
-  };
 
   std::vector<Start> ranked_starts() {
     std::vector<Start> starts;
@@ -238,12 +246,22 @@ double signed_distance(const RevolutionKind& kind, const Freedom& freedom, const
 }
 
 Estimate estimate(const RevolutionKind& kind, std::span<const Vec3> points, const PrincipalAxes& principal,
-                  double noise_floor) {
+                  double noise_floor, const Revolution* start) {
   const double unit = std::sqrt(principal.variance[0] + principal.variance[1] + principal.variance[2]);
   std::vector<Vec3> centred;
   centred.reserve(points.size());
   for (const Vec3& p : points) centred.push_back((p - principal.centroid) / unit);
-  Estimate found = Search(kind, std::move(centred), principal, std::max(noise_floor / unit, 1e-6)).run();
+  Search search(kind, std::move(centred), principal, std::max(noise_floor / unit, 1e-6));
+  Estimate found;
+  if (start == nullptr) {
+    found = search.run();
+  } else {
+    Revolution inner = *start;
+    inner.origin = (start->origin - principal.centroid) / unit;
+    inner.profile[0] /= unit;
+    if (!kind.freedom().second_is_angle) inner.profile[1] /= unit;
+    found = search.refined(inner);
+  }
   Revolution& surface = found.surface;
   surface.origin = principal.centroid + unit * surface.origin;
   surface.profile[0] *= unit;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesh/evenness.h"
 #include "plugin/guard.h"
 #include "toposcope/geometry/large_array.h"
 
@@ -62,7 +63,8 @@ void apply(std::span<const FilterStation> filters, PreparedMesh& prepared, Conte
   }
 }
 
-/// Triangles of the base of which at least half of the pieces are wanted.
+/// Triangles of the base of which at least half of the pieces are wanted; where there are none, those of which some
+/// are: what is wanted is narrower than a triangle, an edge of it.
 std::vector<Index> base_triangles(const PreparedMesh& prepared, const std::vector<bool>& which) {
   std::vector<std::int32_t> balance(prepared.base().face_count(), 0);
   std::vector<bool> touched(balance.size(), false);
@@ -73,6 +75,9 @@ std::vector<Index> base_triangles(const PreparedMesh& prepared, const std::vecto
   std::vector<Index> triangles;
   for (Index t = 0; t < balance.size(); ++t)
     if (touched[t] && balance[t] >= 0) triangles.push_back(t);
+  if (!triangles.empty()) return triangles;
+  for (Index t = 0; t < balance.size(); ++t)
+    if (touched[t]) triangles.push_back(t);
   return triangles;
 }
 
@@ -120,7 +125,11 @@ PreparedMesh apply_filters(const Mesh& mesh, std::span<const FilterStation> filt
 PreparedMesh prepare_mesh(const Mesh& mesh, const Stations& stations, Context& context) {
   PreparedMesh prepared;
   prepared.input = &mesh;
-  if (stations.resolution.faces > 0) prepared.coarse = coarsen(mesh.view(), stations.resolution.faces, context);
+  if (stations.resolution.faces > 0) {
+    prepared.coarse = coarsen(mesh.view(), stations.resolution.faces, context);
+    if (!prepared.coarse)
+      if (const auto faces = even_face_count(mesh.view())) prepared.coarse = coarsen(mesh.view(), *faces, context);
+  }
   apply(stations.filters, prepared, context);
   return prepared;
 }

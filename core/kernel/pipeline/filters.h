@@ -26,8 +26,8 @@ struct PreparedMesh {
   /// Appends the vertices of the input that a vertex of `view()` stands for; none where a filter made it.
   void add_input_vertices(Index vertex, std::vector<Index>& vertices) const;
   /// The triangles of the input that the faces of `view()` stand for: those of which at least half (of the filtered
-  /// pieces) are among these, and of a coarse mesh those with two corners where half of the faces are. Ascending.
-  /// \param which  one per face of `view()`
+  /// pieces) are among these, or where there are none those of which any are; and of a coarse mesh those with two
+  /// corners where half of the faces are. Ascending. \param which  one per face of `view()`
   std::vector<Index> input_triangles(const std::vector<bool>& which) const;
 };
 

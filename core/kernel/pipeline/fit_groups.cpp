@@ -103,7 +103,7 @@ class GroupFitter {
                          set_boxes_,
                          box,
                          mesh.box,
-                         mesh.mean_edge,
+                         edge_of(group),
                          points_.integrated_mean_curvature,
                          &mesh,
                          points_.vertices};
@@ -114,6 +114,19 @@ class GroupFitter {
   }
 
  private:
+  /// The mean edge of the mesh, or where the group's own edges are much shorter or longer the mean of these: what is a
+  /// tolerance on the whole is none on a small hole.
+  double edge_of(std::span<const Index> group) const {
+    constexpr double much = 2;
+    double sum = 0, count = 0;
+    for (const Index s : group) {
+      const auto vertices = sets_[s].size();
+      sum += static_cast<double>(vertices) * sets_.edges[s];
+      count += static_cast<double>(vertices);
+    }
+    const double mean = run_.mesh.mean_edge, own = sum / count;
+    return own > 0 && (own * much < mean || own > much * mean) ? own : mean;
+  }
   const ModelFeature& feature(std::size_t i) const { return run_.model.features[job_.features[i]]; }
 
   const FitJob& job_;

@@ -56,6 +56,30 @@ std::vector<Box> boxes_of(const WorkingSets& sets, const ModelRun& run) {
   return boxes;
 }
 
+std::vector<double> edges_of(const WorkingSets& sets, const ModelRun& run) {
+  std::vector<double> lengths(run.mesh.neighbors.size());
+  for (Index v = 0; v < run.mesh.vertex_count(); ++v)
+    for (Index i = run.mesh.neighbor_offsets[v]; i < run.mesh.neighbor_offsets[v + 1]; ++i)
+      lengths[i] = (run.mesh.positions[run.mesh.neighbors[i]] - run.mesh.positions[v]).norm();
+  std::vector<double> edges(sets.size(), 0);
+  run.context.parallel_for(sets.size(), 4 * grain, [&](std::size_t first, std::size_t last) {
+    std::vector<Index> inside(run.mesh.vertex_count(), 0);  // the set that holds a vertex, from 1
+    for (std::size_t s = first; s < last; ++s) {
+      const Index mark = static_cast<Index>(s - first) + 1;
+      for (const Index v : sets[s]) inside[v] = mark;
+      double sum = 0, count = 0;
+      for (const Index v : sets[s])
+        for (Index i = run.mesh.neighbor_offsets[v]; i < run.mesh.neighbor_offsets[v + 1]; ++i) {
+          if (inside[run.mesh.neighbors[i]] != mark) continue;
+          sum += lengths[i];
+          ++count;
+        }
+      if (count > 0) edges[s] = sum / count;
+    }
+  });
+  return edges;
+}
+
 std::vector<double> areas_of(const MeshView& mesh) {
   std::vector<double> areas(mesh.vertex_count(), 0);
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -72,6 +96,7 @@ MeasuredWorkingSets::MeasuredWorkingSets(WorkingSets sets, const ModelRun& run)
     : WorkingSets(std::move(sets)),
       overlap(overlaps(*this, run.mesh.vertex_count())),
       boxes(boxes_of(*this, run)),
+      edges(edges_of(*this, run)),
       vertex_areas(areas_of(run.mesh)),
       integrated_mean_curvature(mean_curvature_measure(run.mesh)) {}
 

@@ -17,6 +17,7 @@ struct MeasuredWorkingSets : WorkingSets {
 
   BitMatrix overlap;                 ///< the sets that share a vertex; every set shares with itself
   std::vector<Box> boxes;            ///< per set; of those alone whose type a feature of the model asks for
+  std::vector<double> edges;         ///< per set: mean length of the edges within it, mesh unit; 0: it has none
   std::vector<double> vertex_areas;  ///< per vertex a third of the triangles around it, squared mesh unit
   std::vector<double> integrated_mean_curvature;  ///< per vertex: mean_curvature_measure, mesh unit
 };

@@ -5,9 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "circle_fit.h"
+#include "toposcope/geometry/chords.h"
 #include "toposcope/geometry/lines.h"
 #include "toposcope/geometry/point_sets.h"
 #include "toposcope/geometry/shape_parameters.h"
@@ -22,7 +24,7 @@ constexpr std::size_t outline_limit = 512;
 
 /// Inverse of a normal matrix whose variances end at `limit`: a direction that the points leave open is uncertain, not
 /// exact as a pseudo-inverse would have it.
-Eigen::Matrix<double, 6, 6> covariance_of(const Eigen::Matrix<double, 6, 6>& information, double limit) {
+Eigen::Matrix<double, 6, 6> inverse_up_to(const Eigen::Matrix<double, 6, 6>& information, double limit) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(information);
   const Eigen::Matrix<double, 6, 1> variance = eigen.eigenvalues().cwiseMax(1 / limit).cwiseInverse();
   return eigen.eigenvectors() * variance.asDiagonal() * eigen.eigenvectors().transpose();
@@ -38,46 +40,127 @@ std::array<Vec3, 2> plane_axes(const Circle& circle, std::span<const Vec3> point
   return {u, circle.normal.cross(u)};
 }
 
+/// What points say of a circle: normal matrix with all parameters as lengths, the tilts as the displacement that they
+/// give to points of the circle.
+struct Evidence {
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  std::vector<Vec3> points;
+  double squares = 0;
+  double covered = 0;  ///< arc length that has points
+
+  double count() const { return static_cast<double>(points.size()); }
+  Eigen::MatrixXd per_point() const { return information / count(); }
+};
+
+using Axes = std::array<Vec3, 2>;
+
+/// \param read_only  of points that a filter made nothing is asked
+Evidence evidence_of(const Circle& circle, const Axes& axes, const FitInput& input, double reach, bool read_only) {
+  Evidence evidence;
+  for (std::size_t i = 0; i < input.points.size(); ++i) {
+    const Vec3& point = input.points[i];
+    const double d2 = squared_distance(circle, point);
+    if (d2 > reach * reach || (read_only && !was_read(input, i))) continue;
+    const auto rows = offset_derivative(circle, axes[0] / circle.radius, axes[1] / circle.radius, point);
+    evidence.information += rows.transpose() * rows;
+    evidence.squares += d2;
+    evidence.points.push_back(point);
+  }
+  return evidence;
+}
+
+/// Whether points scatter about as far out of their plane as they bend in it: any circle is as good, and a small one
+/// that runs through their noise is the best.
+bool cannot_be_told_from_a_line(std::span<const Vec3> points) {
+  constexpr double clearly = 2;
+  const std::array<double, 3> variance = principal_axes(points).variance;
+  return variance[1] < clearly * variance[2];
+}
+
+/// Moves a circle that was fitted to all points to those that were read, where there are others and these determine it
+/// too: what a filter puts between them lies on chords. \return whether it did
+bool move_to_read(const FitInput& input, double reach, double noise_floor, Estimate& estimate) {
+  constexpr std::size_t least = 6;  // twelve residuals for six parameters
+  if (input.mesh == nullptr || input.mesh->input_vertices.empty()) return false;
+  const Axes axes = plane_axes(estimate.circle, input.points);
+  const Evidence all = evidence_of(estimate.circle, axes, input, reach, false);
+  const Evidence read = evidence_of(estimate.circle, axes, input, reach, true);
+  if (read.points.size() == all.points.size() || read.points.size() < least) return false;
+  if (!as_well_spread(read.per_point(), all.per_point())) return false;
+  Estimate moved = refit(read.points, estimate.circle, noise_floor);
+  const auto near = std::count_if(read.points.begin(), read.points.end(), [&](const Vec3& point) {
+    return squared_distance(moved.circle, point) <= reach * reach;
+  });
+  // Away from most of what it was to be moved to it is another circle.
+  if (!moved.summary.usable() || 2 * static_cast<std::size_t>(near) <= read.points.size()) return false;
+  moved.summary.iterations += estimate.summary.iterations;
+  estimate = std::move(moved);
+  return true;
+}
+
+/// Of centre, tilts and radius, as lengths.
+Eigen::Matrix<double, 6, 6> covariance_of(const Circle& circle, const Axes& axes, const Evidence& evidence,
+                                          const FitInput& input, double reach) {
+  // Two components a point, six parameters. Rounding is the least noise of coordinates.
+  const double n = evidence.count(), rounding = 1e-16 * (input.object_box.diagonal() + circle.center.norm());
+  // Neighbouring vertices err alike, so about one sample per mean edge counts.
+  const double samples = std::min(n, std::max(1.0, evidence.covered / input.mean_edge));
+  const double variance = std::max(evidence.squares / std::max(1.0, 2 * n - 6), rounding * rounding);
+  const double limit = circle.radius * circle.radius + input.box.diagonal() * input.box.diagonal();
+  Eigen::Matrix<double, 6, 6> covariance = inverse_up_to(evidence.information * (samples / n / variance), limit);
+  // What residuals do not show: it is the curvature, not the radius, that errs evenly; noise along the circle moves
+  // points outwards; and how deep chords lie.
+  Eigen::Matrix<double, 6, 1> stretch = Eigen::Matrix<double, 6, 1>::Ones();
+  stretch.head<3>().setConstant(curvature_stretch(std::sqrt(covariance(5, 5)) / circle.radius));
+  stretch[5] = stretch[0];
+  covariance = stretch.asDiagonal() * covariance * stretch.asDiagonal();
+  covariance(5, 5) += std::pow(variance / (2 * circle.radius), 2);
+  if (input.mesh != nullptr) {
+    std::vector<double> angles;
+    for (const Vec3& point : ends_of_chords(input)) {
+      if (squared_distance(circle, point) > reach * reach) continue;
+      const Vec3 arm = point - circle.center;
+      angles.push_back(std::atan2(arm.dot(axes[1]), arm.dot(axes[0])));
+    }
+    covariance(5, 5) += chord_variance(typical_sagitta(std::move(angles), circle.radius));
+  }
+  return covariance;
+}
+
 /// Fills in all that follows from the circle and the points.
-/// \param reach  points within it belong to the circle, mesh unit
-void describe(const Circle& circle, const FitInput& input, double reach, FittedShape& shape) {
-  const auto [u, v] = plane_axes(circle, input.points);
+/// \param reach      points within it belong to the circle, mesh unit
+/// \param read_only  the points that were read say how exact it is
+void describe(const Circle& circle, const FitInput& input, double reach, bool read_only, FittedShape& shape) {
+  const Axes axes = plane_axes(circle, input.points);
+  const auto [u, v] = axes;
   const double turn = 2 * pi * circle.radius, edge = input.mean_edge;
   TurnCoverage covered(turn / edge);
-
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
-  std::size_t inliers = 0;
-  double squares = 0;
+  double near = 0;
   for (const Vec3& point : input.points) {
-    const double d2 = offset(circle, point).squared();
-    if (d2 > reach * reach) continue;
-    ++inliers;
-    squares += d2;
+    if (squared_distance(circle, point) > reach * reach) continue;
     const Vec3 arm = point - circle.center;
     covered.add(std::atan2(arm.dot(v), arm.dot(u)), turn / edge);
-    // All parameters as lengths: the tilts as the displacement that they give to points of the circle.
-    const auto rows = offset_derivative(circle, u / circle.radius, v / circle.radius, point);
-    information += rows.transpose() * rows;
+    ++near;
   }
-  if (inliers < 3) {
+  Evidence evidence = evidence_of(circle, axes, input, reach, read_only);
+  if (evidence.points.size() < 3) {
     shape.summary.termination = Termination::failed;
-    shape.summary.message = std::to_string(inliers) + " of " + std::to_string(input.points.size()) +
+    shape.summary.message = std::to_string(evidence.points.size()) + " of " + std::to_string(input.points.size()) +
                             " points lie near the circle: 3 are needed (option 'scale')";
     return;
   }
-  const double n = static_cast<double>(inliers);
-  shape.rms = std::sqrt(squares / n);
+  if (cannot_be_told_from_a_line(evidence.points)) {
+    shape.summary.termination = Termination::degenerate;
+    shape.summary.message = "the points cannot be told from a line: off it they scatter in all directions";
+    return;
+  }
+  shape.rms = std::sqrt(evidence.squares / evidence.count());
   shape.coverage = covered.part();
   shape.explained = shape.coverage * turn / edge;
-  shape.unexplained = (static_cast<double>(input.points.size()) - n) / (n / shape.explained);
+  shape.unexplained = (static_cast<double>(input.points.size()) - near) / (near / shape.explained);
 
-  // Two components a point, six parameters; neighbouring vertices err alike, so about one sample per mean edge counts.
-  // Rounding is the least noise of coordinates.
-  const double rounding = 1e-16 * (input.object_box.diagonal() + circle.center.norm());
-  const double variance = std::max(squares / std::max(1.0, 2 * n - 6), rounding * rounding);
-  const double samples = std::min(n, std::max(1.0, shape.explained));
-  const double limit = circle.radius * circle.radius + input.box.diagonal() * input.box.diagonal();
-  const Eigen::Matrix<double, 6, 6> covariance = covariance_of(information * (samples / n / variance), limit);
+  evidence.covered = shape.coverage * turn;
+  const Eigen::Matrix<double, 6, 6> covariance = covariance_of(circle, axes, evidence, input, reach);
   Eigen::Matrix<double, 7, 6> spread = Eigen::Matrix<double, 7, 6>::Zero();  // to centre, normal, radius
   spread.topLeftCorner<3, 3>().setIdentity();
   spread.block<3, 1>(3, 3) = u / circle.radius;
@@ -122,8 +205,10 @@ class CircleFitter final : public ShapeFitter {
     const double limit = radius_limit_diagonals * input.box.diagonal(), scale = scale_ * input.mean_edge;
     Estimate estimate = powell_ ? fit_powell(input.points, input.box, limit)
                                 : fit_robust(input.points, noise_floor_scales * scale, limit);
+    const bool moved =
+        !powell_ && estimate.summary.usable() && move_to_read(input, 2 * scale, noise_floor_scales * scale, estimate);
     shape.summary = std::move(estimate.summary);
-    if (shape.summary.usable()) describe(estimate.circle, input, 2 * scale, shape);
+    if (shape.summary.usable()) describe(estimate.circle, input, 2 * scale, moved, shape);
     return shape;
   }
 

@@ -177,4 +177,26 @@ Estimate fit_robust(std::span<const Vec3> points, double noise_floor, double rad
   return estimate;
 }
 
+Estimate refit(std::span<const Vec3> points, const Circle& start, double noise_floor) {
+  Estimate estimate;
+  const double unit = start.radius;
+  std::vector<Vec3> sample = representatives(points, start.center, refine_points);
+  for (Vec3& point : sample) point = (point - start.center) / unit;
+  Circle circle{Vec3::Zero(), start.normal, 1};
+  std::vector<double> distances;
+  for (const Vec3& point : sample) distances.push_back(squared_distance(circle, point));
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  const double floor = std::max(noise_floor / unit, 1e-6);
+  double noise = std::max(std::sqrt(*middle) * median_to_sd, floor);
+  for (int round = 0; round < 3; ++round) {
+    minimize(sample, 2.5 * noise, round < 2 ? 1e-6 : 1e-11, circle, estimate.summary);
+    noise = noise_of(sample, circle, noise, floor);
+  }
+  estimate.circle = {start.center + unit * circle.center, circle.normal, unit * circle.radius};
+  estimate.summary.initial_cost *= unit * unit;
+  estimate.summary.final_cost *= unit * unit;
+  return estimate;
+}
+
 }  // namespace toposcope::circle

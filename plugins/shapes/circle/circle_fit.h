@@ -70,6 +70,9 @@ struct Estimate {
 /// \param radius_limit  circles above it count as lines
 Estimate fit_robust(std::span<const Vec3> points, double noise_floor, double radius_limit);
 
+/// The same from a circle near by, without the search.
+Estimate refit(std::span<const Vec3> points, const Circle& start, double noise_floor);
+
 /// Dissertation 4.4.1: least-squares plane, then Powell's method (NLopt's PRAXIS) on centre and radius in that plane.
 /// \param box  bb(w), which gives the initial estimate
 Estimate fit_powell(std::span<const Vec3> points, const Box& box, double radius_limit);

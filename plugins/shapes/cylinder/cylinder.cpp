@@ -60,7 +60,7 @@ class Cylinder final : public RevolutionKind {
   std::string report(const Revolution& surface, const RevolutionAccount& account, const FitInput& input,
                      FittedShape& shape) const override {
     const double radius = surface.profile[0], sd = std::sqrt(account.variance(4)), edge = input.mean_edge;
-    if (!(radius > 0) || !(radius <= flat_diagonals * input.box.diagonal()) || !(sd <= radius * most_uncertain))
+    if (!(radius > 0) || !(radius <= flat_diagonals * input.box.diagonal()) || !(sd <= radius * most_uncertain_radius))
       return "the points cannot be told from a plane: the cylinder's radius is uncertain, or above 10 box diagonals";
     const double middle = (account.low + account.high) / 2;
     const Vec3 p = surface.origin + middle * surface.axis, a = surface.axis;

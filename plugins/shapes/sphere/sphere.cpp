@@ -49,10 +49,17 @@ class Sphere final : public RevolutionKind {
 
   std::optional<Revolution> about(const Revolution&, std::span<const Vec3>) const override { return std::nullopt; }
 
+  /// A triangle of even ones is as wide as its share of the area says; its middle lies deepest.
+  std::array<double, 2> sagittas(const Revolution& surface, const RevolutionAccount& account,
+                                 std::span<const Vec3> points) const override {
+    constexpr double squared_circumradius = 0.385;  // of a triangle, per area that a vertex stands for
+    return {squared_circumradius * account.area / static_cast<double>(points.size()) / (2 * surface.profile[0]), 0};
+  }
+
   std::string report(const Revolution& surface, const RevolutionAccount& account, const FitInput& input,
                      FittedShape& shape) const override {
     const double radius = surface.profile[0], sd = std::sqrt(account.variance(3));
-    if (!(radius > 0) || !(radius <= flat_diagonals * input.box.diagonal()) || !(sd <= radius * most_uncertain))
+    if (!(radius > 0) || !(radius <= flat_diagonals * input.box.diagonal()) || !(sd <= radius * most_uncertain_radius))
       return "the points cannot be told from a plane: the sphere's radius is uncertain, or above 10 box diagonals";
     const Vec3& c = surface.origin;
     shape.parameters = {{"center", 3, {c.x(), c.y(), c.z()}}, {"radius", 1, {radius}}};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "toposcope/geometry/chords.h"
 #include "toposcope/geometry/revolution.h"
 #include "toposcope/geometry/shape_parameters.h"
 #include "toposcope/plugin.h"
@@ -65,14 +66,26 @@ class Torus final : public RevolutionKind {
     return Revolution{ring.origin + circle->y * ring.axis, ring.axis, {circle->x, circle->radius}};
   }
 
+  /// About the axis, and about the middle line of the tube.
+  std::array<double, 2> sagittas(const Revolution& surface, const RevolutionAccount& account,
+                                 std::span<const Vec3> points) const override {
+    std::vector<double> angles;
+    for (const Vec3& point : points) {
+      const auto [radius, height] = position(surface, point);
+      angles.push_back(std::atan2(height, radius - surface.profile[0]));
+    }
+    return {RevolutionKind::sagittas(surface, account, points)[0],
+            typical_sagitta(std::move(angles), surface.profile[1])};
+  }
+
   std::string report(const Revolution& surface, const RevolutionAccount& account, const FitInput& input,
                      FittedShape& shape) const override {
     const auto [major, minor] = surface.profile;
     const double major_sd = std::sqrt(account.variance(5)), minor_sd = std::sqrt(account.variance(6));
     if (!(minor > 0) || !(major >= minor)) return "the tube is wider than the ring: no torus, perhaps a sphere";
-    if (!(major <= flat_diagonals * input.box.diagonal()) || !(major_sd <= major * most_uncertain))
+    if (!(major <= flat_diagonals * input.box.diagonal()) || !(major_sd <= major * most_uncertain_radius))
       return "the points cannot be told from a cylinder: the ring's radius is uncertain, or above 10 box diagonals";
-    if (!(minor_sd <= minor * most_uncertain)) return "the points do not determine the radius of the tube";
+    if (!(minor_sd <= minor * most_uncertain_radius)) return "the points do not determine the radius of the tube";
     const Vec3 c = surface.origin, a = surface.axis;
     shape.parameters = {{"center", 3, {c.x(), c.y(), c.z()}},
                         {"axis", 3, {a.x(), a.y(), a.z()}},

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "component_tree.h"
+#include "creases.h"
 #include "halves.h"
 #include "toposcope/geometry/curvature.h"
 #include "toposcope/geometry/large_array.h"
@@ -31,6 +32,8 @@ constexpr OptionSpec options[] = {
     {"reach", OptionType::real, "mean-edges", "3", "0", "10",
      "radius of the ball whose first moment tells edges of thin sheets too; 0: curvature alone"},
     {"halves", OptionType::boolean, "", "true", "", "", "long convex rings are offered in two halves too"},
+    {"creases", OptionType::boolean, "", "true", "", "",
+     "sharp edges and the parts of the surface between them are offered too, of any size"},
 };
 
 constexpr ProvidedName types[] = {
@@ -41,14 +44,14 @@ constexpr ProvidedName types[] = {
 
 /// Of each type the field is the logarithm of a curvature times the object's size, or of a moment in radii, so that
 /// neither unit nor rounding plays a role.
-constexpr double step = 0.02, flat = 1e-2;
+constexpr double step = 0.02, least = 1e-2;
 using Field = double (*)(double maximum, double minimum);
 constexpr std::array<std::pair<const char*, Field>, 3> fields = {{
-    {"convex", [](double maximum, double) { return std::log(std::max(maximum, flat)); }},
-    {"concave", [](double, double minimum) { return std::log(std::max(-minimum, flat)); }},
+    {"convex", [](double maximum, double) { return std::log(std::max(maximum, least)); }},
+    {"concave", [](double, double minimum) { return std::log(std::max(-minimum, least)); }},
     {"planar",
      [](double maximum, double minimum) {
-       return -std::log(std::max({maximum, -minimum, flat}));
+       return -std::log(std::max({maximum, -minimum, least}));
      }},
 }};
 
@@ -59,19 +62,21 @@ class CurvatureTree final : public WorkingSetClassifier {
         max_part_(given.real("max_part")),
         reach_(given.real("reach")),
         halves_(given.boolean("halves")),
+        creases_(given.boolean("creases")),
         limits_{given.real("growth"), static_cast<Index>(given.integer("min_vertices")), 0,
                 static_cast<std::size_t>(given.integer("max_sets"))} {}
 
   void classify(const MeshView& mesh, Context& context, WorkingSetSink& sink) const override {
-    std::vector<component_tree::Levels> levels = read_fields(mesh, context);
+    component_tree::Limits limits = limits_;
+    limits.max_vertices = static_cast<Index>(max_part_ * mesh.vertex_count());
+    const creases::Parts parts = creases_ ? creases::parts_of(mesh, limits) : creases::Parts{};
+    std::vector<component_tree::Levels> levels = read_fields(mesh, parts.flat, context);
     std::vector<const char*> of_type;
     for (const auto& field : fields) of_type.push_back(field.first);
     if (reach_ > 0) {
-      levels.push_back(read_moments(mesh, context));
+      levels.push_back(read_moments(mesh, parts.flat, context));
       of_type.push_back("convex");
     }
-    component_tree::Limits limits = limits_;
-    limits.max_vertices = static_cast<Index>(max_part_ * mesh.vertex_count());
     std::vector<component_tree::Components> found(levels.size());
     context.parallel_for(levels.size(), 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) found[i] = component_tree::components(mesh, levels[i], step, limits);
@@ -81,6 +86,9 @@ class CurvatureTree final : public WorkingSetClassifier {
       if (halves_ && std::string_view(of_type[i]) == "convex")
         add(of_type[i], component_tree::halves_of_rings(mesh, found[i], limits.min_vertices), sink);
     }
+    add("convex", parts.convex, sink);
+    add("concave", parts.concave, sink);
+    add("planar", parts.planar, sink);
   }
 
  private:
@@ -88,7 +96,8 @@ class CurvatureTree final : public WorkingSetClassifier {
     for (std::size_t set = 0; set < sets.size(); ++set) sink.add(type, sets[set], sets.saliency[set]);
   }
 
-  std::vector<component_tree::Levels> read_fields(const MeshView& mesh, Context& context) const {
+  std::vector<component_tree::Levels> read_fields(const MeshView& mesh, const std::vector<bool>& flat,
+                                                  Context& context) const {
     ShapeOperators operators = fit_shape_operators(mesh, context);
     diffuse(mesh, operators, diffusion_passes(mesh, deviation_ * mesh.box.diagonal(), 1), context);
     // Lengths relative to the root of the surface area: unlike a box it has no ties to break.
@@ -97,7 +106,8 @@ class CurvatureTree final : public WorkingSetClassifier {
     for (component_tree::Levels& level : levels) level = large_array<std::int32_t>(mesh.vertex_count());
     context.parallel_for(mesh.vertex_count(), 1024, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v) {
-        const PrincipalCurvatures principal = principal_curvatures(operators.at[v]);
+        const bool bent = flat.empty() || !flat[v];
+        const PrincipalCurvatures principal = bent ? principal_curvatures(operators.at[v]) : PrincipalCurvatures{};
         for (std::size_t i = 0; i < fields.size(); ++i) {
           const double field = fields[i].second(size * principal.maximum, size * principal.minimum);
           levels[i][v] = static_cast<std::int32_t>(std::floor(field / step));
@@ -109,15 +119,16 @@ class CurvatureTree final : public WorkingSetClassifier {
 
   /// A moment that points against the normal or lies in the surface is that of an edge: at the edge of a thin sheet the
   /// normal may be the sheet's.
-  component_tree::Levels read_moments(const MeshView& mesh, Context& context) const {
+  component_tree::Levels read_moments(const MeshView& mesh, const std::vector<bool>& flat, Context& context) const {
     constexpr double rises = 0.3;  // sine of the angle above the surface from which on a moment is that of a crease
     const std::vector<Vec3> moments = first_moments(mesh, reach_, context), normals = vertex_normals(mesh, context);
     component_tree::Levels level = large_array<std::int32_t>(mesh.vertex_count());
     context.parallel_for(mesh.vertex_count(), 1024, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v) {
         const double moment = moments[v].norm();
-        const double field = moments[v].dot(normals[v]) < rises * moment ? moment : 0;
-        level[v] = static_cast<std::int32_t>(std::floor(std::log(std::max(field, flat)) / step));
+        const bool bent = flat.empty() || !flat[v];
+        const double field = bent && moments[v].dot(normals[v]) < rises * moment ? moment : 0;
+        level[v] = static_cast<std::int32_t>(std::floor(std::log(std::max(field, least)) / step));
       }
     });
     return level;
@@ -127,6 +138,7 @@ class CurvatureTree final : public WorkingSetClassifier {
   double max_part_;
   double reach_;
   bool halves_;
+  bool creases_;
   component_tree::Limits limits_;
 };
 

@@ -150,9 +150,41 @@ TEST(CurvatureTree, IsTheSameAtAnyThreadCountAndScale) {
   EXPECT_EQ(one.vertices, large.vertices);
 }
 
+/// A prism of 48 sides: its wall, its two edges and its two ends, each exactly.
+TEST(CurvatureTree, OffersThePartsOfATessellation) {
+  const Mesh mesh(test::make_cylinder(1, 3, 48, 1), "prism");
+  const MeshView& view = mesh.view();
+  const WorkingSets sets = classify(mesh);
+  const auto offered = [&](const char* type, const auto& belongs) {
+    std::set<Index> wanted;
+    for (Index v = 0; v < view.vertex_count(); ++v)
+      if (belongs(view.positions[v])) wanted.insert(v);
+    for (std::size_t s = 0; s < sets.size(); ++s)
+      if (sets.type_names[sets.types[s]] == type && std::set<Index>(sets[s].begin(), sets[s].end()) == wanted)
+        return true;
+    return false;
+  };
+  EXPECT_TRUE(offered("convex", [](const Vec3& p) { return p.head<2>().norm() > 0.5; }));
+  for (const double side : {-1, 1}) {
+    EXPECT_TRUE(offered("convex", [&](const Vec3& p) { return p.head<2>().norm() > 0.5 && side * p.z() > 0; }));
+    EXPECT_TRUE(offered("planar", [&](const Vec3& p) { return side * p.z() > 0; }));
+  }
+}
+
+/// All of a smooth round thing is one of its parts.
+TEST(CurvatureTree, OffersTheWholeMesh) {
+  const Mesh mesh(test::make_sphere(3), "sphere");
+  const WorkingSets sets = classify(mesh);
+  bool offered = false;
+  for (std::size_t s = 0; s < sets.size(); ++s)
+    offered = offered || (sets.type_names[sets.types[s]] == "convex" && sets[s].size() == mesh.view().vertex_count());
+  EXPECT_TRUE(offered);
+}
+
 TEST(CurvatureTree, KeepsItsLimits) {
   const Mesh mesh(test::make_torus(2, 0.6, 60, 30), "torus");
-  const WorkingSets sets = classify(mesh, 2, {{"max_sets", "5"}, {"min_vertices", "10"}, {"max_part", "0.2"}});
+  const WorkingSets sets =
+      classify(mesh, 2, {{"max_sets", "5"}, {"min_vertices", "10"}, {"max_part", "0.2"}, {"creases", "false"}});
   std::map<Index, int> count;
   for (std::size_t s = 0; s < sets.size(); ++s) {
     ++count[sets.types[s]];

@@ -94,6 +94,11 @@ class RevolutionKind {
   virtual std::optional<Revolution> about(const Revolution& ring, std::span<const Vec3> points) const = 0;
   /// The same surface with its axis and profile as `report` wants them.
   virtual Revolution settled(const Revolution& surface) const { return surface; }
+  /// How deep chords between the points lie under the surface, for each radius of the profile: how much smaller it may
+  /// be than it is at the points. By the gaps about the axis, if the kind does not say otherwise.
+  /// \param points  ends of chords on the surface, at least one
+  virtual std::array<double, 2> sagittas(const Revolution& surface, const RevolutionAccount& account,
+                                         std::span<const Vec3> points) const;
   /// Fills in parameters, measures, covariance, centroid, outline, coverage of a fit.
   /// \return why the points do not determine the surface, or nothing
   virtual std::string report(const Revolution& surface, const RevolutionAccount& account, const FitInput& input,
@@ -123,9 +128,10 @@ constexpr OptionSpec scale_option(const char* meaning) {
 
 /// Radii above so many diagonals of bb(w) are those of something flat (or of a straight tube).
 inline constexpr double flat_diagonals = 10;
-/// A radius or angle whose standard deviation is a greater part of it is not determined: in three deviations is
-/// nothing.
+/// An angle whose standard deviation is a greater part of it is not determined: in three deviations is nothing.
 inline constexpr double most_uncertain = 1.0 / 3;
+/// The same of a radius, whose deviation is stretched (curvature_stretch): before that it is a third.
+inline constexpr double most_uncertain_radius = 1;
 
 // ---- what the kinds share ----
 

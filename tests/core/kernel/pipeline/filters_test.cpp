@@ -92,6 +92,20 @@ TEST_F(Origins, ThatAreNoneAreRefused) {
   EXPECT_THAT(refusal(filter), HasSubstr("does not lie there"));
 }
 
+TEST(OriginsOfFilters, WhatIsNarrowerThanATriangleLabelsThoseThatItTouches) {
+  const Mesh mesh({{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}}, {{0, 1, 2}, {1, 3, 2}}, {0, 1}, 2}, "square");
+  const std::vector<FilterStation> filters = {{"refine", test::filter("refine", {{"max_edge", "0.2"}})}};
+  const PreparedMesh prepared = apply_filters(mesh, filters, test::context());
+  std::vector<bool> which(prepared.view().face_count(), false);
+  ASSERT_GT(which.size(), 8U);
+  EXPECT_THAT(prepared.input_triangles(which), ElementsAre());
+  which[0] = true;
+  EXPECT_THAT(prepared.input_triangles(which), ElementsAre(prepared.origin[0]));
+  for (std::size_t f = 0; f < which.size(); ++f) which[f] = prepared.origin[f] == 0;
+  which[0] = true;
+  EXPECT_THAT(prepared.input_triangles(which), ElementsAre(0)) << "one piece of the other is not half of it";
+}
+
 TEST(OriginsOfFilters, RefinedThenDecimatedVerticesAreWhereTheyWere) {
   const Mesh mesh(test::make_torus(1, 0.4, 24, 12), "torus");
   const std::vector<FilterStation> filters = {{"refine", test::filter("refine", {{"max_edge", "0.05"}})},
