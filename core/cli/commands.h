@@ -23,6 +23,7 @@ void add_run(CLI::App& app, int& code);
 void add_sample(CLI::App& app, int& code);
 
 /// Below `model`.
+void add_model_ask(CLI::App& model, int& code);
 void add_model_learn(CLI::App& model, int& code);
 void add_model_new(CLI::App& model, int& code);
 void add_model_probe(CLI::App& model, int& code);

@@ -116,7 +116,7 @@ int evaluate(const EvaluateOptions& options) {
     if (!options.out.empty()) observer = [&](const MeshAtHand& at) { gallery.add(at); };
     Evaluation evaluation = toposcope::evaluate(dataset, model, stations, session.host(), session.context(), observer);
     cards.push_back(gallery.take());
-    evaluation.pipeline = options.pipeline;
+    evaluation.pipeline = !options.pipeline.empty() ? options.pipeline : session.pipeline(model).name;
     session.status("");
     std::vector<Table> all = tables(evaluation);
     if (!options.baseline.empty())

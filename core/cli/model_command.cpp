@@ -22,6 +22,7 @@ int model_check(const ModelOptions& options) {
   const PluginCatalog catalog = open_catalog(options.plugin_dirs);
   const fs::path file = find_resource("models", options.model);
   const Model model = read_model(file, &catalog);
+  if (!model.pipeline.empty()) check_types(model, read_pipeline(pipeline_file(model), catalog), catalog);
   say("{}: model '{}' is sound: {} abstract objects, {} features, {} relationships, {} classes\n", file.string(),
       model.name, model.abstract.objects.size(), model.features.size(), model.relationships.size(),
       model.classes.size());
@@ -38,7 +39,7 @@ int model_show(const ModelOptions& options) {
 }  // namespace
 
 void add_model(CLI::App& app, int& code) {
-  CLI::App& command = *app.add_subcommand("model", "begin, check, show, probe or teach a model");
+  CLI::App& command = *app.add_subcommand("model", "begin, check, show, ask, probe or teach a model");
   command.require_subcommand(1);
   CLI::App& check = *command.add_subcommand("check", "report all errors of a model file");
   CLI::App& show = *command.add_subcommand("show", "print a model's networks, features and relationships");
@@ -50,6 +51,7 @@ void add_model(CLI::App& app, int& code) {
   show.add_option("--format", options->format, "text or dot (Graphviz)")
       ->check(CLI::IsMember({"text", "dot"}))
       ->capture_default_str();
+  add_model_ask(command, code);
   add_model_new(command, code);
   add_model_learn(command, code);
   add_model_probe(command, code);

@@ -54,7 +54,8 @@ void add_quiet(CLI::App& command, bool& quiet) {
 }
 
 void add_pipeline(CLI::App& command, CommonOptions& options) {
-  command.add_option("--pipeline", options.pipeline, "name or file of the pipeline")->capture_default_str();
+  command.add_option("--pipeline", options.pipeline,
+                     "name or file of the pipeline instead of the model's, or 'default'");
 }
 
 void add_session(CLI::App& command, CommonOptions& options) {

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 /// What commands that work on meshes take; each adds the options that it has.
 struct CommonOptions {
   std::vector<fs::path> plugin_dirs;
-  std::string pipeline = "default";
+  std::string pipeline;  ///< empty: the model's own, or the default
   std::string labeler;
   std::vector<std::string> overrides;  ///< station.option=value
   unsigned threads = 0;

@@ -62,7 +62,7 @@ std::optional<Truth> truth_if_any(const fs::path& mesh, Context& context) {
 void lock_or_compare(const RunOptions& options, PipelineSession& session, const Model& model) {
   if (options.lock.empty() && options.locked.empty()) return;
   const RunLock now = lock_run({TOPOSCOPE_VERSION, locked_file(fs::canonical("/proc/self/exe"))}, options.seed,
-                               session.pipeline(), model, options.meshes, session.host().catalog());
+                               session.pipeline(model), model, options.meshes, session.host().catalog());
   if (options.locked.empty())
     write_file(options.lock, to_json(now));
   else

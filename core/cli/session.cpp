@@ -20,13 +20,6 @@
 namespace toposcope::cli {
 namespace {
 
-PipelineManifest open_pipeline(const CommonOptions& options, const PluginCatalog& catalog) {
-  PipelineManifest pipeline = read_pipeline(find_resource("pipelines", options.pipeline), catalog);
-  if (!options.labeler.empty()) set_labeler(pipeline, options.labeler, catalog);
-  for (const std::string& text : options.overrides) apply_override(pipeline, text, catalog);
-  return pipeline;
-}
-
 spdlog::level::level_enum level_of(LogLevel level) {
   switch (level) {
     case LogLevel::debug:
@@ -93,8 +86,41 @@ void Session::status(const std::string& text) {
   std::fflush(stderr);
 }
 
-PipelineSession::PipelineSession(const CommonOptions& options)
-    : Session(options), pipeline_(open_pipeline(options, host().catalog())) {}
+fs::path pipeline_file(const Model& model) {
+  if (model.pipeline.empty()) return find_resource("pipelines", "default");
+  const fs::path named(model.pipeline);
+  const bool is_file = named.extension() == ".yaml" || named.extension() == ".yml";
+  try {
+    return find_resource("pipelines", is_file ? (fs::path(model.file).parent_path() / named).string() : model.pipeline);
+  } catch (const UsageError& error) {
+    throw UsageError(model.pipeline_where.str() + ": pipeline '" + model.pipeline + "': " + error.what());
+  }
+}
+
+PipelineSession::PipelineSession(const CommonOptions& options) : Session(options), options_(options) {
+  if (!options_.pipeline.empty()) open(find_resource("pipelines", options_.pipeline));  // before any model
+}
+
+const PipelineManifest& PipelineSession::pipeline(const Model& model) {
+  return open(options_.pipeline.empty() ? pipeline_file(model) : find_resource("pipelines", options_.pipeline));
+}
+
+Stations PipelineSession::stations(const Model& model) {
+  if (model.features.empty())
+    throw UsageError(model.file + ": model '" + model.name +
+                     "' has no features to look for on a mesh; add some under 'features', or use model ask");
+  return make_stations(host(), pipeline(model), model);
+}
+
+const PipelineManifest& PipelineSession::open(const fs::path& file) {
+  const auto found = pipelines_.find(file);
+  if (found != pipelines_.end()) return found->second;
+  const PluginCatalog& catalog = host().catalog();
+  PipelineManifest pipeline = read_pipeline(file, catalog);
+  if (!options_.labeler.empty()) set_labeler(pipeline, options_.labeler, catalog);
+  for (const std::string& text : options_.overrides) apply_override(pipeline, text, catalog);
+  return pipelines_.emplace(file, std::move(pipeline)).first->second;
+}
 
 std::string not_done(std::size_t all, const std::string& what, const std::vector<std::string>& names) {
   constexpr std::size_t most = 12;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -38,15 +39,23 @@ class Session {
   std::optional<Interruption> interruption_;
 };
 
-/// And a pipeline.
+/// The file of the pipeline that a model asks for, or of the default one. \throw UsageError  with the model's place
+fs::path pipeline_file(const Model& model);
+
+/// And pipelines: that of the command line for all models, or each model's own.
 class PipelineSession : public Session {
  public:
   explicit PipelineSession(const CommonOptions& options);
-  const PipelineManifest& pipeline() const { return pipeline_; }
-  Stations stations(const Model& model) { return make_stations(host(), pipeline_, model); }
+  /// Read once, with what the command line changes in it: models of one pipeline get the same object.
+  const PipelineManifest& pipeline(const Model& model);
+  /// \throw UsageError  also of a model that has no features to look for
+  Stations stations(const Model& model);
 
  private:
-  PipelineManifest pipeline_;
+  const PipelineManifest& open(const fs::path& file);
+
+  CommonOptions options_;
+  std::map<fs::path, PipelineManifest> pipelines_;  ///< by file
 };
 
 /// Name and version, for what the program writes.

@@ -39,7 +39,8 @@ class WorksetTrial final : public MeshTrial {
     Answer answer;
     RunContext quiet({.threads = 1});
     try {
-      classify_mesh(view(), {"", types_, raw}, quiet);
+      const WorkingSetStation station{"", types_, raw};
+      classify_mesh(view(), {&station, 1}, quiet);
     } catch (const PluginError& error) {
       answer.flaw = std::string(error.what()).substr(std::string("plugin '': ").size());
     }

@@ -43,7 +43,8 @@ std::vector<LockedPlugin> locked_plugins(const PipelineManifest& pipeline, const
       add(kind, id, plugin_options(pipeline, catalog, kind, id));
   };
   for (const StationPlugin& filter : pipeline.filters) add(PluginKind::filters, filter.plugin, filter.options);
-  add(PluginKind::worksets, pipeline.worksets.plugin, pipeline.worksets.options);
+  for (const StationPlugin& classifier : pipeline.worksets)
+    add(PluginKind::worksets, classifier.plugin, classifier.options);
   for (const ModelFeature& feature : model.features) {
     add_once(PluginKind::shapes, feature.shape.plugin);
     for (const ShapeSpec& other : feature.other_shapes) add_once(PluginKind::shapes, other.plugin);

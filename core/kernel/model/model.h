@@ -100,6 +100,8 @@ struct ClassRule {
 
 struct Model {
   std::string name, summary, citation;
+  std::string pipeline;  ///< that it asks for, by name or file; empty: none
+  SourceLocation pipeline_where;
   std::string file;
   std::string document;  ///< the file as JSON
   AbstractModel abstract;

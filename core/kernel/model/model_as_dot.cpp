@@ -59,7 +59,7 @@ class DotWriter {
       write_network("parts", "Part-whole: has-part", model_.abstract.parts);
       write_network("associations", "Spatial associations", model_.abstract.associations);
     }
-    write_working_model();
+    if (!model_.features.empty()) write_working_model();
     write_realisations();
     return out_ + "}\n";
   }

@@ -79,7 +79,7 @@ std::string model_as_text(const Model& model) {
       write_object(model.abstract, object, width, out);
   }
 
-  out += "\nFeatures\n";
+  if (!model.features.empty()) out += "\nFeatures\n";
   for (const ModelFeature& feature : model.features) write_feature(feature, longest_name(model.features), out);
 
   if (!model.relationships.empty()) out += "\nRelationships\n";

@@ -177,6 +177,7 @@ std::vector<ModelFeature> read_features(const YAML::Node& root, const AbstractMo
                                         const ModelReading& reading) {
   FeatureReader reader(abstract, reading);
   std::vector<ModelFeature> features;
+  if (!root["features"]) return features;
   for (const auto& entry : root["features"]) features.push_back(reader.read(entry.first, entry.second));
   return features;
 }

@@ -22,10 +22,16 @@ Model model_from_text(const std::string& text, const std::string& file, const Pl
   errors.throw_if_any();
 
   const ModelReading reading{file, catalog, errors};
+  if (!root["features"] && !root["objects"])
+    reading.add(root, "the model says nothing: add 'features' to find, or 'objects' to reason with");
   Model model;
   model.name = text_of(root["name"]);
   model.summary = text_of(root["summary"]);
   model.citation = text_of(root["citation"]);
+  if (const YAML::Node pipeline = root["pipeline"]) {
+    model.pipeline = pipeline.Scalar();
+    model.pipeline_where = reading.at(pipeline);
+  }
   model.file = file;
   model.document = yaml_to_json(root, file, errors).value.dump();
   model.abstract = read_abstract_model(root, reading);

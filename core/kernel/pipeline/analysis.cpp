@@ -14,16 +14,32 @@
 
 namespace toposcope {
 
+ClassifiedMesh classify(const Mesh& mesh, const Stations& stations, const std::vector<std::string>& types,
+                        Context& context) {
+  ClassifiedMesh classified;
+  Stopwatch watch;
+  classified.mesh = prepare_mesh(mesh, stations, context);
+  classified.timings.emplace_back("filter", watch.lap_ms());
+  const MeshView& view = classified.mesh.view();
+  classified.sets = MeasuredWorkingSets(classify_mesh(view, stations.working_sets, context), types, view, context);
+  classified.timings.emplace_back("classify", watch.lap_ms());
+  return classified;
+}
+
 Analysis construct(const Mesh& mesh, const Model& model, const Stations& stations, Context& context) {
+  std::vector<std::string> types;
+  add_asked_types(model, types);
+  return construct(classify(mesh, stations, types, context), model, stations, context);
+}
+
+Analysis construct(ClassifiedMesh classified, const Model& model, const Stations& stations, Context& context) {
   Analysis analysis;
+  analysis.mesh = std::move(classified.mesh);
+  analysis.sets = std::move(classified.sets);
+  analysis.timings = std::move(classified.timings);
   Stopwatch watch;
   const auto lap = [&](const char* station) { analysis.timings.emplace_back(station, watch.lap_ms()); };
-
-  analysis.mesh = prepare_mesh(mesh, stations, context);
-  lap("filter");
   const ModelRun run{analysis.mesh.view(), model, stations, context};
-  analysis.sets = MeasuredWorkingSets(classify_mesh(run.mesh, stations.working_sets, context), run);
-  lap("classify");
   analysis.features = construct_features(run, analysis.sets);
   lap("fit");
   analysis.problem = relate(run, analysis.sets, analysis.features);
@@ -69,7 +85,14 @@ void label(Analysis& analysis, const Model& model, const Stations& stations, con
 
 Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations, const LabelingRequest& request,
                  Context& context) {
-  Analysis analysis = construct(mesh, model, stations, context);
+  std::vector<std::string> types;
+  add_asked_types(model, types);
+  return analyze(classify(mesh, stations, types, context), model, stations, request, context);
+}
+
+Analysis analyze(ClassifiedMesh classified, const Model& model, const Stations& stations,
+                 const LabelingRequest& request, Context& context) {
+  Analysis analysis = construct(std::move(classified), model, stations, context);
   label(analysis, model, stations, request, context);
   Stopwatch watch;
   ClassOutcome& best = analysis.classes[analysis.best];

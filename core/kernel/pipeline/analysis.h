@@ -37,6 +37,20 @@ struct Analysis {
   Index origin(Index feature) const { return instances ? instances->origin[feature] : feature; }
 };
 
+/// What an analysis learns before it asks what the model says: the same for all models of one pipeline.
+struct ClassifiedMesh {
+  PreparedMesh mesh;
+  MeasuredWorkingSets sets;
+  Timings timings;
+};
+
+/// Runs filter and classify. \param types  of working sets that will be asked for (add_asked_types)
+ClassifiedMesh classify(const Mesh& mesh, const Stations& stations, const std::vector<std::string>& types,
+                        Context& context);
+
+/// Runs fit, relate and the second look on it. \param stations  of the pipeline that classified the mesh
+Analysis construct(ClassifiedMesh classified, const Model& model, const Stations& stations, Context& context);
+
 /// Runs filter, classify, fit, relate and, where the model has one, the second look, which a first labelling by the
 /// pipeline's labeler guides: all that comes before the labelling proper.
 Analysis construct(const Mesh& mesh, const Model& model, const Stations& stations, Context& context);
@@ -48,5 +62,7 @@ void label(Analysis& analysis, const Model& model, const Stations& stations, con
 /// Both; then the best class's answer has its features in their most probable shapes.
 Analysis analyze(const Mesh& mesh, const Model& model, const Stations& stations, const LabelingRequest& request,
                  Context& context);
+Analysis analyze(ClassifiedMesh classified, const Model& model, const Stations& stations,
+                 const LabelingRequest& request, Context& context);
 
 }  // namespace toposcope

@@ -37,40 +37,39 @@ BitMatrix overlaps(const WorkingSets& sets, Index vertex_count) {
   return shared;
 }
 
-std::vector<Box> boxes_of(const WorkingSets& sets, const ModelRun& run) {
+std::vector<Box> boxes_of(const WorkingSets& sets, const std::vector<std::string>& types, const MeshView& mesh,
+                          Context& context) {
   std::vector<char> asked(sets.type_names.size(), 0);
-  for (const ModelFeature& feature : run.model.features)
-    for (const std::vector<std::string>* types : {&feature.worksets, &feature.second_look})
-      for (std::size_t t = 0; t < asked.size(); ++t)
-        if (std::find(types->begin(), types->end(), sets.type_names[t]) != types->end()) asked[t] = 1;
+  for (std::size_t t = 0; t < asked.size(); ++t)
+    if (std::find(types.begin(), types.end(), sets.type_names[t]) != types.end()) asked[t] = 1;
   std::vector<Box> boxes(sets.size());
-  run.context.parallel_for(sets.size(), grain, [&](std::size_t first, std::size_t last) {
+  context.parallel_for(sets.size(), grain, [&](std::size_t first, std::size_t last) {
     std::vector<Vec3> points;
     for (std::size_t s = first; s < last; ++s) {
       if (asked[sets.types[s]] == 0) continue;
       points.clear();
-      for (Index v : sets[s]) points.push_back(run.mesh.positions[v]);
+      for (Index v : sets[s]) points.push_back(mesh.positions[v]);
       boxes[s] = oriented_box(points);
     }
   });
   return boxes;
 }
 
-std::vector<double> edges_of(const WorkingSets& sets, const ModelRun& run) {
-  std::vector<double> lengths(run.mesh.neighbors.size());
-  for (Index v = 0; v < run.mesh.vertex_count(); ++v)
-    for (Index i = run.mesh.neighbor_offsets[v]; i < run.mesh.neighbor_offsets[v + 1]; ++i)
-      lengths[i] = (run.mesh.positions[run.mesh.neighbors[i]] - run.mesh.positions[v]).norm();
+std::vector<double> edges_of(const WorkingSets& sets, const MeshView& mesh, Context& context) {
+  std::vector<double> lengths(mesh.neighbors.size());
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    for (Index i = mesh.neighbor_offsets[v]; i < mesh.neighbor_offsets[v + 1]; ++i)
+      lengths[i] = (mesh.positions[mesh.neighbors[i]] - mesh.positions[v]).norm();
   std::vector<double> edges(sets.size(), 0);
-  run.context.parallel_for(sets.size(), 4 * grain, [&](std::size_t first, std::size_t last) {
-    std::vector<Index> inside(run.mesh.vertex_count(), 0);  // the set that holds a vertex, from 1
+  context.parallel_for(sets.size(), 4 * grain, [&](std::size_t first, std::size_t last) {
+    std::vector<Index> inside(mesh.vertex_count(), 0);  // the set that holds a vertex, from 1
     for (std::size_t s = first; s < last; ++s) {
       const Index mark = static_cast<Index>(s - first) + 1;
       for (const Index v : sets[s]) inside[v] = mark;
       double sum = 0, count = 0;
       for (const Index v : sets[s])
-        for (Index i = run.mesh.neighbor_offsets[v]; i < run.mesh.neighbor_offsets[v + 1]; ++i) {
-          if (inside[run.mesh.neighbors[i]] != mark) continue;
+        for (Index i = mesh.neighbor_offsets[v]; i < mesh.neighbor_offsets[v + 1]; ++i) {
+          if (inside[mesh.neighbors[i]] != mark) continue;
           sum += lengths[i];
           ++count;
         }
@@ -92,12 +91,20 @@ std::vector<double> areas_of(const MeshView& mesh) {
 
 }  // namespace
 
-MeasuredWorkingSets::MeasuredWorkingSets(WorkingSets sets, const ModelRun& run)
+MeasuredWorkingSets::MeasuredWorkingSets(WorkingSets sets, const std::vector<std::string>& asked, const MeshView& mesh,
+                                         Context& context)
     : WorkingSets(std::move(sets)),
-      overlap(overlaps(*this, run.mesh.vertex_count())),
-      boxes(boxes_of(*this, run)),
-      edges(edges_of(*this, run)),
-      vertex_areas(areas_of(run.mesh)),
-      integrated_mean_curvature(mean_curvature_measure(run.mesh)) {}
+      overlap(overlaps(*this, mesh.vertex_count())),
+      boxes(boxes_of(*this, asked, mesh, context)),
+      edges(edges_of(*this, mesh, context)),
+      vertex_areas(areas_of(mesh)),
+      integrated_mean_curvature(mean_curvature_measure(mesh)) {}
+
+void add_asked_types(const Model& model, std::vector<std::string>& types) {
+  for (const ModelFeature& feature : model.features)
+    for (const std::vector<std::string>* asked : {&feature.worksets, &feature.second_look})
+      for (const std::string& type : *asked)
+        if (std::find(types.begin(), types.end(), type) == types.end()) types.push_back(type);
+}
 
 }  // namespace toposcope

@@ -35,6 +35,14 @@ class Reader {
     return station;
   }
 
+  /// A station, or a list of them.
+  std::vector<StationPlugin> one_or_more(const YAML::Node& node, PluginKind kind) {
+    if (!node.IsSequence()) return {station(node, kind)};
+    std::vector<StationPlugin> all;
+    for (const YAML::Node& each : node) all.push_back(station(each, kind));
+    return all;
+  }
+
   /// {id: {option: value, ...}, ...}
   std::map<std::string, std::vector<OptionValue>> stations(const YAML::Node& node, PluginKind kind) {
     std::map<std::string, std::vector<OptionValue>> all;
@@ -121,11 +129,29 @@ Setting parse_setting(std::string_view text, const std::string& owner) {
     throw UsageError(owner + ": there is no station '" + setting.station + "'; " +
                      name_remedy(setting.station, stations));
   const bool many = setting.station == "filters" || setting.station == "shapes" || setting.station == "relations";
-  if (many == setting.id.empty())
+  if (setting.station != "worksets" && many == setting.id.empty())  // of classifiers there may be one or several
     throw UsageError(owner + ": station '" + setting.station + "' " +
                      (many ? "has several plugins; name one: " + setting.station + ".<plugin>.<option>=<value>"
                            : "has one plugin; write " + setting.station + "." + setting.option + "=<value>"));
   return setting;
+}
+
+/// The stations of a pipeline that a setting means: every one of its id, or without an id the only one there is.
+std::vector<StationPlugin*> meant(std::vector<StationPlugin>& stations, const Setting& setting,
+                                  const std::string& owner, const std::string& pipeline) {
+  const std::string one = setting.station == "filters" ? "filter" : "classifier";
+  std::vector<std::string> ids;
+  for (const StationPlugin& station : stations) ids.push_back(station.plugin);
+  if (setting.id.empty() && stations.size() > 1)
+    throw UsageError(owner + ": the pipeline '" + pipeline + "' has several " + one + "s; name one, as in " +
+                     setting.station + "." + ids.front() + "." + setting.option + "; " + name_remedy("", ids));
+  std::vector<StationPlugin*> found;
+  for (StationPlugin& station : stations)
+    if (setting.id.empty() || station.plugin == setting.id) found.push_back(&station);
+  if (found.empty())
+    throw UsageError(owner + ": the pipeline '" + pipeline + "' has no " + one + " '" + setting.id + "'; " +
+                     name_remedy(setting.id, ids));
+  return found;
 }
 
 }  // namespace
@@ -146,7 +172,7 @@ PipelineManifest read_pipeline(const std::filesystem::path& path, const PluginCa
   if (root["filters"])
     for (const YAML::Node& filter : root["filters"])
       pipeline.filters.push_back(reader.station(filter, PluginKind::filters));
-  pipeline.worksets = reader.station(root["worksets"], PluginKind::worksets);
+  pipeline.worksets = reader.one_or_more(root["worksets"], PluginKind::worksets);
   pipeline.shapes = reader.stations(root["shapes"], PluginKind::shapes);
   pipeline.relations = reader.stations(root["relations"], PluginKind::relations);
   pipeline.labeler = reader.station(root["labeler"], PluginKind::labelers);
@@ -171,8 +197,11 @@ void apply_override(PipelineManifest& pipeline, std::string_view text, const Plu
     return check_option(catalog.require(kind, id, owner).options, setting.option, setting.value,
                         owner + ": " + owner_name(kind, id));
   };
-  if (setting.station == "worksets") {
-    replace(pipeline.worksets.options, checked(PluginKind::worksets, pipeline.worksets.plugin));
+  if (setting.station == "worksets" || setting.station == "filters") {
+    const bool is_filter = setting.station == "filters";
+    for (StationPlugin* station :
+         meant(is_filter ? pipeline.filters : pipeline.worksets, setting, owner, pipeline.name))
+      replace(station->options, checked(is_filter ? PluginKind::filters : PluginKind::worksets, station->plugin));
   } else if (setting.station == "labeler") {
     replace(pipeline.labeler.options, checked(PluginKind::labelers, pipeline.labeler.plugin));
   } else if (setting.station == "marginals") {
@@ -186,14 +215,6 @@ void apply_override(PipelineManifest& pipeline, std::string_view text, const Plu
   } else if (setting.station == "probability") {
     replace(pipeline.probability,
             check_option(probability_option_table(), setting.option, setting.value, owner + ": probability"));
-  } else if (setting.station == "filters") {
-    std::vector<std::string> ids;
-    for (const StationPlugin& filter : pipeline.filters) ids.push_back(filter.plugin);
-    if (std::find(ids.begin(), ids.end(), setting.id) == ids.end())
-      throw UsageError(owner + ": the pipeline '" + pipeline.name + "' has no filter '" + setting.id + "'; " +
-                       name_remedy(setting.id, ids));
-    for (StationPlugin& filter : pipeline.filters)
-      if (filter.plugin == setting.id) replace(filter.options, checked(PluginKind::filters, setting.id));
   } else {
     const PluginKind kind = setting.station == "shapes" ? PluginKind::shapes : PluginKind::relations;
     OptionValue value = checked(kind, setting.id);

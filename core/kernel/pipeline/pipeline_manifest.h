@@ -23,9 +23,9 @@ struct StationPlugin {
 struct PipelineManifest {
   std::string name, summary;
   std::string file;
-  std::vector<OptionValue> resolution;  ///< the kernel's own: resolution_option_table()
-  std::vector<StationPlugin> filters;   ///< in order
-  StationPlugin worksets;
+  std::vector<OptionValue> resolution;                        ///< the kernel's own: resolution_option_table()
+  std::vector<StationPlugin> filters;                         ///< in order
+  std::vector<StationPlugin> worksets;                        ///< at least one; what they give is pooled
   std::map<std::string, std::vector<OptionValue>> shapes;     ///< by plugin id; those not named take their defaults
   std::map<std::string, std::vector<OptionValue>> relations;  ///< likewise
   StationPlugin labeler;
@@ -43,8 +43,9 @@ PipelineManifest read_pipeline(const std::filesystem::path& path, const PluginCa
 std::vector<OptionValue> plugin_options(const PipelineManifest& pipeline, const PluginCatalog& catalog, PluginKind kind,
                                         std::string_view id);
 
-/// Command line `--set`: "station.option=value", where station is filters.<id> (every filter of that id), worksets,
-/// shapes.<id>, relations.<id>, labeler, marginals, resolution or probability. \throw UsageError
+/// Command line `--set`: "station.option=value", where station is filters.<id> or worksets.<id> (every one of that
+/// id; of a single classifier also worksets), shapes.<id>, relations.<id>, labeler, marginals, resolution or
+/// probability. \throw UsageError
 void apply_override(PipelineManifest& pipeline, std::string_view setting, const PluginCatalog& catalog);
 
 /// Command line `--labeler`: another labeler, with its defaults; the pipeline's own keeps its options.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stations.h"
 
+#include <algorithm>
 #include <map>
 
+#include "base/errors.h"
+#include "base/nearest_name.h"
 #include "pipeline/pipeline_manifest.h"
 #include "plugin/plugin_host.h"
 #include "probability/probability_options.h"
@@ -52,15 +55,6 @@ class SharedPlugins {
   std::map<std::string, std::shared_ptr<const RelationTester>> testers_;
 };
 
-/// \throw UsageError  the feature asks for a type that the classifier does not provide
-void check_types(const ModelFeature& feature, const PluginManifest& worksets, const PipelineManifest& pipeline) {
-  for (const std::vector<std::string>* types : {&feature.worksets, &feature.second_look})
-    for (const std::string& type : *types)
-      if (!worksets.find_provided(type))
-        throw UsageError(feature.where.str() + ": feature '" + feature.name + "' asks for working sets of type '" +
-                         type + "', which '" + worksets.id + "' of pipeline '" + pipeline.name + "' does not provide");
-}
-
 }  // namespace
 
 PluginUse use_of(const PluginManifest& manifest, const std::vector<OptionValue>& options) {
@@ -68,6 +62,24 @@ PluginUse use_of(const PluginManifest& manifest, const std::vector<OptionValue>&
   for (std::size_t i = 0; i < options.size(); ++i)
     use.options.emplace_back(options[i].name, to_string(manifest.options[i], options[i]));
   return use;
+}
+
+void check_types(const Model& model, const PipelineManifest& pipeline, const PluginCatalog& catalog) {
+  std::vector<std::string> provided;
+  std::string classifiers;
+  for (const StationPlugin& station : pipeline.worksets) {
+    const PluginManifest& plugin = catalog.require(PluginKind::worksets, station.plugin);
+    for (const ProvidedRow& type : plugin.provides) provided.push_back(type.name);
+    classifiers += (classifiers.empty() ? "'" : ", '") + plugin.id + "'";
+  }
+  for (const ModelFeature& feature : model.features)
+    for (const std::vector<std::string>* types : {&feature.worksets, &feature.second_look})
+      for (const std::string& type : *types)
+        if (std::find(provided.begin(), provided.end(), type) == provided.end())
+          throw UsageError(feature.where.str() + ": feature '" + feature.name + "' asks for working sets of type '" +
+                           type + "', which pipeline '" + pipeline.name + "' (" + classifiers +
+                           ") does not provide; name another type or pipeline, or add a classifier that makes it: " +
+                           name_remedy(type, provided));
 }
 
 FilterStation make_filter(PluginHost& host, std::string_view id, std::span<const GivenOption> given,
@@ -90,14 +102,17 @@ Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const
     stations.uses.push_back(stations.filters.back().use);
   }
 
-  const PluginManifest& worksets = catalog.require(PluginKind::worksets, pipeline.worksets.plugin);
-  stations.working_sets = {worksets.id, {}, host.worksets(worksets.id, pipeline.worksets.options)};
-  for (const ProvidedRow& type : worksets.provides) stations.working_sets.types.push_back(type.name);
-  stations.uses.push_back(use_of(worksets, pipeline.worksets.options));
+  check_types(model, pipeline, catalog);
+  for (const StationPlugin& chosen : pipeline.worksets) {
+    const PluginManifest& plugin = catalog.require(PluginKind::worksets, chosen.plugin);
+    WorkingSetStation& station =
+        stations.working_sets.emplace_back(WorkingSetStation{plugin.id, {}, host.worksets(plugin.id, chosen.options)});
+    for (const ProvidedRow& type : plugin.provides) station.types.push_back(type.name);
+    stations.uses.push_back(use_of(plugin, chosen.options));
+  }
 
   SharedPlugins plugins(host, pipeline, stations.uses);
   for (const ModelFeature& feature : model.features) {
-    check_types(feature, worksets, pipeline);
     const auto shape_station = [&](const ShapeSpec& spec) {
       const std::string where = spec.where.str();
       const PluginManifest& shape = catalog.require(PluginKind::shapes, spec.plugin, where);

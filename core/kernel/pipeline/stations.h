@@ -87,7 +87,7 @@ struct LabelerStation {
 struct Stations {
   Resolution resolution{};
   std::vector<FilterStation> filters;
-  WorkingSetStation working_sets;
+  std::vector<WorkingSetStation> working_sets;     ///< in the order of the pipeline
   std::vector<FeatureStation> features;            ///< one per model feature; the same shape is the same object
   std::vector<RelationshipStation> relationships;  ///< one per model relationship; likewise
   LabelerStation labeler;
@@ -103,6 +103,9 @@ FilterStation make_filter(PluginHost& host, std::string_view id, std::span<const
                           const std::string& owner);
 /// The same of options that are checked already.
 FilterStation make_filter(PluginHost& host, std::string_view id, const std::vector<OptionValue>& options);
+
+/// \throw UsageError  a feature of the model asks for working sets that no classifier of the pipeline makes
+void check_types(const Model& model, const PipelineManifest& pipeline, const PluginCatalog& catalog);
 
 /// Loads what pipeline and model need. \throw PluginError, UsageError
 Stations make_stations(PluginHost& host, const PipelineManifest& pipeline, const Model& model);

@@ -12,7 +12,9 @@ namespace toposcope {
 
 /// The working sets of a mesh, in compressed rows; possibly overlapping.
 struct WorkingSets {
+  std::vector<std::string> plugin_names;  ///< of the classifiers, each once
   std::vector<std::string> type_names;
+  std::vector<Index> plugins;    ///< one per set, into `plugin_names`: who found it, of equal sets first
   std::vector<Index> types;      ///< one per set, into `type_names`
   std::vector<double> saliency;  ///< one per set
   std::vector<Index> offsets = {0};
@@ -24,9 +26,10 @@ struct WorkingSets {
   }
 };
 
-/// The station *classify*: runs the classifier and checks what it gives: known types, vertices in range, no repeats,
-/// connected.
+/// The station *classify*: runs the classifiers, checks what each gives (known types, vertices in range, no repeats,
+/// connected) and pools it. Of several classifiers sets of one type with the same vertices are kept once, at the
+/// largest saliency.
 /// \throw PluginError
-WorkingSets classify_mesh(const MeshView& mesh, const WorkingSetStation& station, Context& context);
+WorkingSets classify_mesh(const MeshView& mesh, std::span<const WorkingSetStation> stations, Context& context);
 
 }  // namespace toposcope

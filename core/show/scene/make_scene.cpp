@@ -112,7 +112,7 @@ class SceneMaker {
     if (is_new)
       scene_.sets.push_back({analysis_.sets.type_names[analysis_.sets.types[set]],
                              scene_.of_sets().shown(analysis_.sets[set]), analysis_.sets[set].size(),
-                             analysis_.sets.saliency[set]});
+                             analysis_.sets.saliency[set], analysis_.sets.plugin_names[analysis_.sets.plugins[set]]});
     return place->second;
   }
 

@@ -102,6 +102,7 @@ Scene scene_from(const SceneJson& root) {
   for (const SceneJson& node : root.at("working_sets")) {
     scene.sets.push_back(set_from(node, shown));
     scene.sets.back().saliency = number(node.at("saliency"));
+    scene.sets.back().plugin = node.value("plugin", "");  // older ones do not have it
   }
   for (const SceneJson& node : root.at("all_working_sets")) scene.all_sets.push_back(set_from(node, shown));
   for (const ShownWorkingSet& set : scene.all_sets) scene.types.push_back(set.type);

@@ -20,6 +20,7 @@ struct ShownWorkingSet {
   std::vector<Index> vertices;  ///< shown ones, ascending
   std::size_t size = 0;         ///< vertices of the mesh, shown or not
   double saliency = 1;
+  std::string plugin = {};  ///< that found the set; empty: not known
 };
 
 /// A constructed feature that a model feature could take.

@@ -74,11 +74,14 @@ SceneJson document(const Scene& scene, const std::string& program) {
   root["result"] = SceneJson::parse(scene.result);
   root["surfaces"] = surfaces_json(scene);
   root["working_sets"] = SceneJson::array();
-  for (const ShownWorkingSet& set : scene.sets)
-    root["working_sets"].push_back({{"type", set.type},
-                                    {"vertices", index_buffer(set.vertices)},
-                                    {"size", set.size},
-                                    {"saliency", number(set.saliency)}});
+  for (const ShownWorkingSet& set : scene.sets) {
+    SceneJson object = {{"type", set.type},
+                        {"vertices", index_buffer(set.vertices)},
+                        {"size", set.size},
+                        {"saliency", number(set.saliency)}};
+    if (!set.plugin.empty()) object["plugin"] = set.plugin;
+    root["working_sets"].push_back(std::move(object));
+  }
   root["all_working_sets"] = SceneJson::array();
   for (const ShownWorkingSet& set : scene.all_sets)
     root["all_working_sets"].push_back(

@@ -111,6 +111,48 @@ TEST_F(Program, TellsCupsFromTees) {
   EXPECT_EQ(json::parse(outcome.out.substr(line + 1))["class"], "tee");
 }
 
+TEST_F(Program, AModelNamesItsPipelineAndTheCommandLineWins) {
+  const TemporaryFolder folder;
+  const std::string model = (folder / "own.yaml").string();
+  const auto write_model = [&](const std::string& pipeline) {
+    write_text(model, "schema: toposcope.model/1\nname: own\npipeline: " + pipeline +
+                          "\nfeatures:\n  rim: {worksets: [convex], shape: circle}\n");
+  };
+  const auto classifiers = [&](const std::string& arguments) {
+    const Outcome outcome = toposcope("run " + mesh("cup") + " --model " + model + " --json " + arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::string ids;
+    if (outcome.exit_code == 0)
+      for (const json& plugin : json::parse(outcome.out)["plugins"])
+        if (plugin["kind"] == "worksets") ids += plugin["id"].get<std::string>() + " ";
+    return ids;
+  };
+  write_model("neal-1999");
+  EXPECT_EQ(classifiers(""), "curvature ");
+  EXPECT_EQ(classifiers("--pipeline default"), "curvature-tree ");
+  EXPECT_EQ(toposcope("model check " + model).exit_code, 0);
+  // A file stands beside the model, wherever the program is started.
+  write_model("both.yaml");
+  write_text(folder / "both.yaml",
+             "schema: toposcope.pipeline/1\nname: both\nworksets: [{plugin: curvature-tree}, {plugin: curvature}]\n"
+             "labeler: {plugin: least-error}\n");
+  EXPECT_EQ(classifiers(""), "curvature-tree curvature ");
+  EXPECT_EQ(classifiers("--set worksets.curvature.high_threshold=10"), "curvature-tree curvature ");
+  // Three models and two pipelines: the mesh is classified twice.
+  const Outcome classified =
+      toposcope("classify " + mesh("cup") + " --models cup,pipe-fitting," + model + " --json -v");
+  EXPECT_EQ(classified.exit_code, 0) << classified.err;
+  EXPECT_EQ(json::parse(classified.out)["class"], "cup");
+  EXPECT_THAT(classified.err, AllOf(HasSubstr("pipeline 'default': "), HasSubstr(" working sets for 2 models"),
+                                    HasSubstr("pipeline 'both': "), HasSubstr(" working sets for 1 models")));
+  write_model("neal-1998");
+  for (const std::string& command : {"model check " + model, "run " + mesh("cup") + " --model " + model}) {
+    const Outcome outcome = toposcope(command);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(model + ":3:11: "), HasSubstr("'neal-1998'"), HasSubstr("'neal-1999'?")));
+  }
+}
+
 TEST_F(Program, RunsTheDissertationsPipelineAndModel) {
   const Outcome outcome = toposcope("run " + mesh("cup") + " --model neal-1999/cup --pipeline neal-1999 --json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -25,7 +25,8 @@ WorkingSets classify(const Mesh& mesh, unsigned threads = 2,
   settings.threads = threads;
   RunContext context(settings);
   // classify_mesh refuses sets that are not connected, out of range or of a type that is not provided.
-  return classify_mesh(mesh.view(), {"curvature-tree", types, test::worksets("curvature-tree", options)}, context);
+  const WorkingSetStation station{"curvature-tree", types, test::worksets("curvature-tree", options)};
+  return classify_mesh(mesh.view(), {&station, 1}, context);
 }
 
 /// Every set is a whole component of {field >= t}: nothing just outside of it is as high as its lowest vertex.

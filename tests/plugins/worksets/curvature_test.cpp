@@ -15,9 +15,9 @@ namespace {
 
 WorkingSets classify(const Mesh& mesh, const std::vector<std::pair<std::string, std::string>>& options = {}) {
   RunContext context;
-  return classify_mesh(mesh.view(),
-                       {"curvature", {"convex", "concave", "planar", "other"}, test::worksets("curvature", options)},
-                       context);
+  const WorkingSetStation station{
+      "curvature", {"convex", "concave", "planar", "other"}, test::worksets("curvature", options)};
+  return classify_mesh(mesh.view(), {&station, 1}, context);
 }
 
 std::size_t count(const WorkingSets& sets, const std::string& type) {

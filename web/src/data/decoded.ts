@@ -127,7 +127,7 @@ export class Scene {
 
   /** How many groups of marks a feature takes: one for each working set of a feature that has several. */
   groups(name: string): number {
-    return Math.max(1, this.document.model?.features[name]?.worksets.length ?? 1);
+    return Math.max(1, this.document.model?.features?.[name]?.worksets.length ?? 1);
   }
 }
 

@@ -45,7 +45,7 @@ export function directions(model: ModelDocument | undefined, places: Map<string,
   if (!model) return {};
   const place = (object: string): Point | null => {
     const inside = held(model, object);
-    const own = Object.entries(model.features).filter(([, feature]) => feature.realises && inside.has(feature.realises));
+    const own = Object.entries(model.features ?? {}).filter(([, feature]) => feature.realises && inside.has(feature.realises));
     return mean(own.flatMap(([name]) => (places.has(name) ? [places.get(name)!] : [])));
   };
   const sums: Sum[] = (['right', 'front', 'up'] as const).map((axis) => ({ axis, sum: [0, 0, 0], sure: 0 }));

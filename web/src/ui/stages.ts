@@ -90,7 +90,7 @@ function setTools(scene: Scene, store: Store): HTMLElement[] {
       h('h3', {}, 'One at a time'),
       stepper('set', 'working set', (state.set ?? -1) + 1, sets.length, (n) => store.set({ set: n - 1 })),
       current
-        ? h('p', { class: 'fact' }, swatch(scene.setColor(current.type)), ` ${current.type}, ${plural(current.size, 'vertex', 'vertices')}${current.saliency === null ? '' : `, stands out ${figure(100 * current.saliency, 2)} %`}`)
+        ? h('p', { class: 'fact' }, swatch(scene.setColor(current.type)), ` ${current.type}${current.plugin === undefined ? '' : ` of ${current.plugin}`}, ${plural(current.size, 'vertex', 'vertices')}${current.saliency === null ? '' : `, stands out ${figure(100 * current.saliency, 2)} %`}`)
         : h('p', { class: 'hint' }, 'Or click the surface: sets at that place, the smallest first.'),
     );
     if (current) nodes.push(h('button', { class: 'link', 'data-key': 'sets:all', onclick: () => store.set({ set: null }) }, 'Show all sets by type'));

@@ -70,7 +70,7 @@ TEST(ShowModel, GraphvizReadsIt) {
   const test::PluginFolderFixture folder;
   const auto models = std::filesystem::path(TOPOSCOPE_SOURCE_DIR) / "models";
   std::vector<std::string> graphs = {model_as_dot(model_from_text(nasty, "m.yaml", nullptr))};
-  for (const char* name : {"cup", "airplane", "pipe-fitting", "neal-1999/pipe-fitting"})
+  for (const char* name : {"cup", "airplane", "pipe-fitting", "left-lung", "neal-1999/pipe-fitting"})
     graphs.push_back(model_as_dot(read_model(models / (std::string(name) + ".yaml"), nullptr)));
   for (const std::string& graph : graphs) {
     folder.write("model.dot", graph);

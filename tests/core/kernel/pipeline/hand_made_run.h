@@ -97,7 +97,7 @@ struct HandMadeRun {
     return relationship;
   }
 
-  void measure() { sets = MeasuredWorkingSets(std::move(sets), run()); }
+  void measure() { sets = MeasuredWorkingSets(std::move(sets), {"convex"}, mesh.view(), context(2)); }
   ModelRun run() const { return {mesh.view(), model, stations, context(2)}; }
 
   static Expression expression(const char* text) { return Expression::parse(text, {"by hand", 1, 1}); }

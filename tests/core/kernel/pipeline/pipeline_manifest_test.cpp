@@ -90,7 +90,7 @@ TEST_F(Pipeline, ReadsEveryStation) {
   ASSERT_EQ(pipeline.filters.size(), 2);
   EXPECT_EQ(Options(pipeline.filters[0].options).real("max_edge"), 0.5);
   EXPECT_EQ(Options(pipeline.filters[1].options).real("max_edge"), 0.02);
-  EXPECT_EQ(Options(pipeline.worksets.options).integer("rings"), 3);
+  EXPECT_EQ(Options(pipeline.worksets[0].options).integer("rings"), 3);
   EXPECT_EQ(pipeline.labeler.plugin, "least-error");
   EXPECT_EQ(Options(pipeline.labeler.options).text("order"), "detectability");
   EXPECT_EQ(Options(pipeline.probability).integer("max_candidates"), 7);
@@ -183,7 +183,7 @@ TEST_F(Pipeline, OverridesOneValue) {
     apply_override(pipeline, setting, catalog());
   EXPECT_EQ(Options(pipeline.filters[0].options).real("max_edge"), 0.25);
   EXPECT_EQ(Options(pipeline.filters[1].options).real("max_edge"), 0.25);
-  EXPECT_EQ(Options(pipeline.worksets.options).integer("rings"), 4);
+  EXPECT_EQ(Options(pipeline.worksets[0].options).integer("rings"), 4);
   EXPECT_EQ(Options(pipeline.shapes["circle"]).integer("restarts"), 9);
   EXPECT_EQ(Options(pipeline.shapes["circle"]).text("method"), "powell") << "the others stay";
   EXPECT_EQ(Options(pipeline.relations["parallel"]).real("tolerance"), 1);
@@ -199,12 +199,47 @@ TEST_F(Pipeline, OverridesAPluginThatThePipelineDoesNotName) {
   EXPECT_EQ(Options(pipeline.shapes["circle"]).integer("restarts"), 3);
 }
 
+TEST_F(Pipeline, HasOneClassifierOrSeveral) {
+  add("watershed", PluginKind::worksets, {{"depth", OptionType::real, "", "0.5", "0", "1", "least depth"}});
+  const std::string tail = "labeler: {plugin: exact}\n";
+  PipelineManifest pipeline =
+      read(head + "worksets: [{plugin: curvature, rings: 4}, {plugin: watershed}, {plugin: curvature}]\n" + tail);
+  ASSERT_EQ(pipeline.worksets.size(), 3);
+  EXPECT_EQ(Options(pipeline.worksets[0].options).integer("rings"), 4);
+  EXPECT_EQ(pipeline.worksets[1].plugin, "watershed");
+  apply_override(pipeline, "worksets.curvature.rings=5", catalog());
+  apply_override(pipeline, "worksets.watershed.depth=0.25", catalog());
+  EXPECT_EQ(Options(pipeline.worksets[0].options).integer("rings"), 5) << "every one of that id";
+  EXPECT_EQ(Options(pipeline.worksets[2].options).integer("rings"), 5);
+  EXPECT_EQ(Options(pipeline.worksets[1].options).real("depth"), 0.25);
+  const auto refusal = [&](const char* setting) -> std::string {
+    try {
+      apply_override(pipeline, setting, catalog());
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_THAT(refusal("worksets.rings=3"),
+              AllOf(HasSubstr("several classifiers"), HasSubstr("worksets.curvature.rings"),
+                    HasSubstr("curvature, watershed")));
+  EXPECT_THAT(refusal("worksets.watersheds.depth=1"), AllOf(HasSubstr("no classifier"), HasSubstr("'watershed'?")));
+  PipelineManifest single = read(whole);
+  apply_override(single, "worksets.curvature.rings=6", catalog());
+  EXPECT_EQ(Options(single.worksets[0].options).integer("rings"), 6);
+  EXPECT_THAT(error_of(head + "worksets: []\n" + tail), HasSubstr(at(3, 11)));
+  EXPECT_THAT(error_of(head + "worksets: [{plugin: curvature}, {rings: 2}]\n" + tail),
+              AllOf(HasSubstr(at(3, 33)), HasSubstr("plugin")));
+  EXPECT_THAT(error_of(head + "worksets: [{plugin: curvature}, {plugin: curvature, rings: 9}]\n" + tail),
+              AllOf(HasSubstr(at(3, 53)), HasSubstr("from 1 to 8")));
+}
+
 TEST_F(Pipeline, WrongOverrides) {
   EXPECT_THAT(set_error("worksets.rings"), HasSubstr("is no assignment"));
   EXPECT_THAT(set_error("rings=3"), HasSubstr("does not name station and option"));
   EXPECT_THAT(set_error("workset.rings=3"), AllOf(HasSubstr("no station 'workset'"), HasSubstr("'worksets'?")));
   EXPECT_THAT(set_error("shapes.method=powell"), HasSubstr("name one"));
-  EXPECT_THAT(set_error("worksets.curvature.rings=3"), HasSubstr("worksets.rings"));
+  EXPECT_THAT(set_error("worksets.curvatur.rings=3"), AllOf(HasSubstr("no classifier"), HasSubstr("'curvature'?")));
   EXPECT_THAT(set_error("worksets.rings=99"), AllOf(HasSubstr("'99'"), HasSubstr("from 1 to 8")));
   EXPECT_THAT(set_error("worksets.=3"), HasSubstr("does not name"));
   EXPECT_THAT(set_error("shapes.cirlce.method=powell"), HasSubstr("'circle'?"));

@@ -42,7 +42,7 @@ struct Rows {
   }
 
   void first_look() {
-    sets = MeasuredWorkingSets(std::move(sets), run());
+    sets = MeasuredWorkingSets(std::move(sets), {"convex"}, mesh.view(), context(2));
     features = construct_features(run(), sets);
   }
 
