@@ -186,7 +186,7 @@ class Measurement {
       if (auto made = normalised(mesh.view(), faces)) mesh = std::move(*made);
 
     const auto start = std::chrono::steady_clock::now();
-    const WorkingSets sets = classify_mesh(mesh.view(), station_, context_);
+    const WorkingSets sets = classify_mesh(mesh.view(), {&station_, 1}, context_);
     tally.times_ms.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     tally.sets.push_back(sets.size());

@@ -12,7 +12,7 @@
 namespace toposcope {
 namespace {
 
-constexpr std::array<std::string_view, 11> relations = {
+constexpr std::array<std::string_view, 11> asked_relations = {
     "bounded-by", "boundary-of", "has-part", "part-of", "adjacent-to", "up", "down", "front", "back", "right", "left"};
 
 const Consequence* found_among(const std::vector<Consequence>& all, Index object) {
@@ -56,13 +56,8 @@ std::string chain_in_words(const std::vector<Link>& chain, const AbstractModel& 
   return words;
 }
 
-std::string side(const std::optional<Index>& object, const AbstractModel& model) {
+std::string side_in_words(const std::optional<Index>& object, const AbstractModel& model) {
   return object ? model.objects[*object].name : "?";
-}
-
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
 }
 
 std::string verdict_in_words(const AbstractAnswer& answer, const AbstractModel& model) {
@@ -97,7 +92,7 @@ AbstractAnswer answer(const AbstractQuery& query, const Model& model) {
         answer.found.push_back({std::string(told), std::move(each)});
   };
   if (query.relation.empty())
-    for (const std::string_view relation : relations) find(*query.subject, relation, relation);
+    for (const std::string_view relation : asked_relations) find(*query.subject, relation, relation);
   else if (query.subject && query.object)
     judge(answer, abstract);
   else if (query.subject)
@@ -111,11 +106,11 @@ std::string to_text(const AbstractAnswer& answer, const Model& model) {
   const AbstractModel& abstract = model.abstract;
   const AbstractQuery& query = answer.query;
   const bool everything = query.relation.empty();
-  std::string text = side(query.subject, abstract);
+  std::string text = side_in_words(query.subject, abstract);
   if (everything)
     text += " (" + object_kind(abstract.objects[*query.subject].dimension) + ")\n";
   else
-    text += " " + query.relation + " " + side(query.object, abstract) + "\n";
+    text += " " + query.relation + " " + side_in_words(query.object, abstract) + "\n";
   if (query.subject && query.object) return text + verdict_in_words(answer, abstract);
   std::size_t width = 0;
   for (const AbstractAnswer::Found& found : answer.found)

@@ -29,6 +29,13 @@ struct Link {
   SourceLocation where;
 };
 
+/// Features along whose normal or axis one of the object's directions runs, either way: `axes: {up: [seat]}`.
+struct AxisFeatures {
+  std::string direction;        ///< up, front or right
+  std::vector<Index> features;  ///< by index into Model::features
+  SourceLocation where;
+};
+
 struct AbstractModel {
   std::vector<SpatialObject> objects;
   std::vector<Link> topology;      ///< from is bounded by to; to has dimension one less
@@ -88,6 +95,13 @@ struct Relationship {
   /// In the residual's unit (deg or length), over bb(O); without it the relation's own option decides.
   std::optional<Expression> tolerance;
   SourceLocation where;
+  std::string because = {};  ///< what of the abstract part it follows from; empty: it is written
+};
+
+/// A relationship that would follow from the abstract part, had the writer not said otherwise.
+struct Overruled {
+  std::string because;  ///< what it would follow from
+  std::string by;       ///< the relationship that says it
 };
 
 /// A class of objects told apart by which relationships hold (Tables 5.5, 6.2): exactly the features that these
@@ -106,7 +120,9 @@ struct Model {
   std::string document;  ///< the file as JSON
   AbstractModel abstract;
   std::vector<ModelFeature> features;
-  std::vector<Relationship> relationships;
+  std::vector<Relationship> relationships;  ///< as written, then those that the abstract part implies
+  std::vector<Overruled> overruled;
+  std::vector<AxisFeatures> axes;
   std::vector<ClassRule> classes;  ///< empty for most models
   std::vector<ModelMeasure> measures;
 };

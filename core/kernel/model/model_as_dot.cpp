@@ -124,8 +124,14 @@ class DotWriter {
       const Relationship& relationship = model_.relationships[r];
       std::string label = relationship.name + ": " + relationship.plugin;
       if (const std::string arguments = arguments_in_words(relationship); !arguments.empty()) label += "\n" + arguments;
+      const bool follows = !relationship.because.empty();
+      if (follows) label += "\n" + relationship.because;
       out_ += "    " + node_name("relationship", r) +
-              listed({{"label", label}, {"shape", "box"}, {"fillcolor", "#ffffff"}, {"fontsize", "10"}});
+              listed({{"label", label},
+                      {"shape", "box"},
+                      {"style", follows ? "dashed,filled" : "filled"},
+                      {"fillcolor", "#ffffff"},
+                      {"fontsize", "10"}});
       for (const Index feature : relationship.features)
         out_ +=
             "    " + node_name("feature", feature) + " -> " + node_name("relationship", r) + listed({{"dir", "none"}});

@@ -15,11 +15,6 @@ std::size_t longest_name(const std::vector<Named>& items) {
   return longest;
 }
 
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
-}
-
 void write_object(const AbstractModel& model, Index object, std::size_t width, std::string& out) {
   const std::string indent(2 + width + 2 + 9, ' ');
   out +=
@@ -61,6 +56,7 @@ void write_relationship(const Model& model, const Relationship& relationship, st
     out += (i ? ", " : "") + model.features[relationship.features[i]].name;
   out += ")";
   if (const std::string arguments = arguments_in_words(relationship); !arguments.empty()) out += ": " + arguments;
+  if (!relationship.because.empty()) out += "  follows from " + relationship.because;
   out += "\n";
 }
 
@@ -85,6 +81,17 @@ std::string model_as_text(const Model& model) {
   if (!model.relationships.empty()) out += "\nRelationships\n";
   for (const Relationship& relationship : model.relationships)
     write_relationship(model, relationship, longest_name(model.relationships), out);
+
+  if (!model.overruled.empty()) out += "\nWhat would follow, but is said otherwise\n";
+  for (const Overruled& each : model.overruled) out += "  by " + each.by + ": " + each.because + "\n";
+
+  if (!model.axes.empty()) out += "\nAxes\n";
+  for (const AxisFeatures& axis : model.axes) {
+    out += "  " + padded(axis.direction, 5) + "  along";
+    for (std::size_t i = 0; i < axis.features.size(); ++i)
+      out += (i ? ", " : " ") + model.features[axis.features[i]].name;
+    out += "\n";
+  }
 
   if (!model.classes.empty()) out += "\nClasses\n";
   for (const ClassRule& rule : model.classes) {

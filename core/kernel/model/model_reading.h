@@ -63,6 +63,16 @@ std::vector<ClassRule> read_classes(const YAML::Node& root, const std::vector<Re
                                     const ModelReading& reading);
 std::vector<ModelMeasure> read_measures(const YAML::Node& root, const std::vector<ModelFeature>& features,
                                         const ModelReading& reading);
+std::vector<AxisFeatures> read_axes(const YAML::Node& root, const std::vector<ModelFeature>& features,
+                                    const ModelReading& reading);
+
+/// Relationships that put features in an order along a direction of the object (`above`, `between`), against the
+/// directions of the abstract part.
+void refuse_contrary_orders(const Model& model, const ModelReading& reading);
+
+/// Adds the relationships that follow from the abstract part, and to each class those over its features. What a
+/// written relationship of places says of the same features it overrules; `implied:` says which links imply any.
+void add_implied(const YAML::Node& root, const ModelReading& reading, Model& model);
 
 /// `count: 4 | 3..8 | 0..` and `required: true`, which is `count: 1`.
 void read_count(const YAML::Node& feature_node, const ModelReading& reading, ModelFeature& feature);

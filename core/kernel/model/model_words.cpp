@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/model_words.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -57,6 +58,11 @@ std::string count_in_words(const InstanceCount& count) {
   if (!count.most) return count.least == 0 ? "any number" : "at least " + std::to_string(count.least);
   if (*count.most == count.least) return std::to_string(count.least);
   return std::to_string(count.least) + " to " + std::to_string(*count.most);
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size()), ' ');
+  return text;
 }
 
 std::string number_in_words(double number) {

@@ -27,6 +27,9 @@ std::string arguments_in_words(const Relationship& relationship);
 /// "convex + concave"
 std::string worksets_in_words(const ModelFeature& feature);
 
+/// With spaces up to a width.
+std::string padded(std::string text, std::size_t width);
+
 /// "0.5", the shortest that reads back the same
 /// "3 to 8", "4", "any number of", "at least 2"; of a single feature "required" or nothing.
 std::string count_in_words(const InstanceCount& count);

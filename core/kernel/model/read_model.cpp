@@ -39,8 +39,12 @@ Model model_from_text(const std::string& text, const std::string& file, const Pl
   model.relationships = read_relationships(root, model.features, reading);
   model.classes = read_classes(root, model.relationships, reading);
   model.measures = read_measures(root, model.features, reading);
+  model.axes = read_axes(root, model.features, reading);
   check_families(root, model, reading);
   errors.throw_if_any();
+  refuse_contrary_orders(model, reading);
+  errors.throw_if_any();
+  add_implied(root, reading, model);
   return model;
 }
 

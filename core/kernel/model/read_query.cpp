@@ -20,7 +20,7 @@ constexpr const char* forms =
     "?";
 
 /// Lower-case words: a change of case, '-', '_' and space part them, and '?' is a word.
-Words words_of(std::string_view text) {
+Words query_words(std::string_view text) {
   Words words;
   bool open = false;
   char before = ' ';
@@ -115,13 +115,13 @@ int dimension_word(const std::string& word) {
 class QueryReader {
  public:
   QueryReader(const std::string& text, const Model& model) : text_(text), model_(model) {
-    for (const SpatialObject& object : model.abstract.objects) named_.push_back(words_of(object.name));
+    for (const SpatialObject& object : model.abstract.objects) named_.push_back(query_words(object.name));
   }
 
   AbstractQuery read() const {
     AbstractQuery query;
     query.text = text_;
-    Words words = words_of(text_);
+    Words words = query_words(text_);
     // The mark at the end of a sentence, but not the one that stands for what is asked for.
     const bool sentence =
         !words.empty() && is_one_of(words.front(), {"what", "which", "is", "are", "does", "do", "who", "where"});
@@ -147,7 +147,7 @@ class QueryReader {
   Place find_relation(const Words& words) const {
     Place best{0, 0, ""};
     for (const Phrase& phrase : phrases) {
-      const Words sought = words_of(phrase.words);
+      const Words sought = query_words(phrase.words);
       for (auto at = words.begin();; ++at) {
         at = std::search(at, words.end(), sought.begin(), sought.end());
         if (at == words.end()) break;

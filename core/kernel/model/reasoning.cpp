@@ -65,7 +65,7 @@ Walk walk(const Links& links, Index start, const std::vector<std::string_view>& 
   return walk;
 }
 
-std::vector<Consequence> reached(const Walk& walk) {
+std::vector<Consequence> all_reached(const Walk& walk) {
   std::vector<Consequence> all;
   for (std::size_t i = 1; i < walk.order().size(); ++i)
     all.push_back({walk.order()[i], walk.chain_to(walk.order()[i])});
@@ -79,14 +79,14 @@ std::vector<Consequence> boundary(const Links& links, Index subject) {
   for (std::size_t i = 0; i < walk.order().size(); ++i)
     for (const Link& link : links.of(walk.order()[i]))
       if (link.kind == "bounded-by" || (i > 0 && link.kind == "has-part")) walk.reach(link);
-  return reached(walk);
+  return all_reached(walk);
 }
 
 /// What an object bounds: steps up in dimension or to wholes, the last one up.
 std::vector<Consequence> bounded(const Links& links, Index subject) {
   const Walk up = walk(links, subject, {"boundary-of", "part-of"});
   std::vector<Consequence> all;
-  for (Consequence& each : reached(up)) {
+  for (Consequence& each : all_reached(up)) {
     if (each.chain.back().kind != "boundary-of") {
       // Reached first as a whole; it may be bounded all the same.
       const auto by = [&](const Link& link) {
@@ -151,7 +151,7 @@ std::vector<Consequence> consequences(const AbstractModel& model, Index subject,
   std::vector<Consequence> all = relation == "bounded-by"    ? boundary(links, subject)
                                  : relation == "boundary-of" ? bounded(links, subject)
                                  : relation == "adjacent-to" ? adjacent(links, subject)
-                                                             : reached(walk(links, subject, {relation}));
+                                                             : all_reached(walk(links, subject, {relation}));
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.chain.size() < b.chain.size(); });
   return all;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "pipeline/own_axes.h"
 #include "pipeline/stations.h"
 #include "toposcope/labeling/families.h"
 
@@ -23,6 +24,13 @@ struct FamilyCount {
   std::optional<std::pair<double, Index>> beyond;
 };
 
+/// Which side is which, told by handedness: among features that nothing else tells apart.
+struct Sides {
+  OwnAxes axes;
+  double probability = 0;   ///< that the names are not those of the mirror image
+  std::vector<bool> named;  ///< per variable: its name hangs on it
+};
+
 /// The labelling of a model, or of one of its classes.
 struct ClassOutcome {
   std::string name;                  ///< of the class; of the model when it has no classes
@@ -31,7 +39,9 @@ struct ClassOutcome {
   LabelingProblem problem;           ///< interchangeable features told apart by the best labelling
   LabelingOutcome outcome;           ///< the labeler's; its probabilities are those of the pipeline's marginals, if any
   std::string probabilities;         ///< how they were made; empty: there are none
-  Labeling answer;                   ///< what is reported: the labelling of least cost, or one of most probable shapes
+  std::optional<Sides> sides;        ///< nothing: the model, or what was found, tells none
+  std::vector<std::vector<Index>> renamings;  ///< of its features that mean the same (renamings_of), `sides` kept
+  Labeling answer;  ///< what is reported: the labelling of least cost, or one of most probable shapes
 
   /// Before interchangeable features are told apart:
   double log_evidence = 0;                ///< over all labellings; not a number where none is made

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pipeline/families.h"
+#include "pipeline/sides.h"
 #include "pipeline/solve.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/tell_apart.h"
@@ -44,7 +45,9 @@ SolveTimes solve_class(ClassOutcome& posed, const ModelRun& run, const LabelingR
 void tell_apart(ClassOutcome& posed, const std::vector<std::vector<Index>>& orbits, const ConstructedFeatures& features,
                 const ModelRun& run, const LabelingRequest& request) {
   const Interchange interchange{posed, orbits, features, run};
-  const std::vector<Index> places = own_places(interchange);
+  std::vector<Index> places = own_places(interchange);
+  // Instances of families have no names to tell sides by.
+  if (!has_families(run.model)) posed.sides = tell_sides(posed, places, features, run);
   const std::vector<std::vector<Index>> kept = told_apart(interchange, places);
   bool changed = false;
   for (Index v = 0; v < kept.size(); ++v) changed = changed || kept[v].size() < posed.problem.variables[v].domain();
@@ -77,10 +80,11 @@ ClassOutcome label_class(ClassOutcome posed, const ConstructedFeatures& features
   posed.lower_bound = posed.outcome.lower_bound;
   posed.least_cost = forbidden;
   for (const Labeling& labeling : posed.outcome.labelings) posed.least_cost = std::min(posed.least_cost, labeling.cost);
-  const auto names = renamings_of(posed, run.model, run.stations);
+  posed.renamings = renamings_of(posed, run.model, run.stations);
   // What differs in names that mean the same is one explanation, not several.
-  posed.log_evidence = posed.outcome.log_evidence - std::log(static_cast<double>(names.size()));
-  tell_apart(posed, orbits_of(names), features, run, request);
+  posed.log_evidence = posed.outcome.log_evidence - std::log(static_cast<double>(posed.renamings.size()));
+  tell_apart(posed, orbits_of(posed.renamings), features, run, request);
+  if (has_families(run.model)) posed.renamings.clear();  // of instances, once they are written out
   posed.answer = posed.outcome.labelings.front();
   return posed;
 }

@@ -42,6 +42,7 @@ class Explainer {
     report.probability = probability(v, value);
     if (report.present) {
       const ConstructedFeature& made = constructed(v, value);
+      if (posed_.sides && posed_.sides->named[v]) report.probability *= posed_.sides->probability;
       report.evidence = -price_over_missing(best_, v).cost;
       report.shape = made.shape;
       report.shape_plugin = made.plugin;
@@ -238,6 +239,7 @@ Result explain(const Analysis& analysis, const Model& given_model, const std::st
   for (Index f = 0; f < given_model.features.size(); ++f)
     result.candidates.emplace_back(given_model.features[f].name, analysis.features.of_feature[f].count);
   for (const FamilyCount& count : posed.families) result.families.push_back(report_family(count, given_model));
+  result.sides = posed.sides;
   std::vector<const FittedShape*> found;
   for (const FeatureReport& report : result.features) found.push_back(report.present ? &report.shape : nullptr);
   result.measurements = measure(model, found, result.box);

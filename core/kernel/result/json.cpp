@@ -156,6 +156,16 @@ Json candidate_count(const CandidateCount& count) {
           {"broken_bounds", bounds}};
 }
 
+Json directions(const Sides& sides) {
+  const auto axis = [](const OwnAxis& each) {
+    return Json{each.direction.x(), each.direction.y(), each.direction.z()};
+  };
+  return {{"up", axis(*sides.axes.up)},
+          {"front", axis(*sides.axes.front)},
+          {"right", axis(*sides.axes.right)},
+          {"probability", number(sides.probability)}};
+}
+
 Json document(const Result& result) {
   Json root;
   root["schema"] = "toposcope.result/1";
@@ -190,6 +200,7 @@ Json document(const Result& result) {
   for (const FeatureReport& report : result.features) root["features"][report.name] = feature(report);
   if (!result.families.empty())
     for (const FamilyReport& report : result.families) root["families"][report.name] = family(report);
+  if (result.sides) root["directions"] = directions(*result.sides);
   root["relations"] = Json::array();
   for (const RelationReport& report : result.relations) root["relations"].push_back(relation(report));
   if (!result.measurements.all.empty()) {

@@ -103,6 +103,7 @@ struct Result {
   std::vector<FeatureReport> features;  ///< of families each instance
   std::vector<FamilyReport> families;
   std::vector<RelationReport> relations;
+  std::optional<Sides> sides;
   Measurements measurements;
   std::vector<AlternativeReport> alternatives;
   std::vector<std::pair<std::string, CandidateCount>> candidates;

@@ -105,6 +105,8 @@ std::string to_text(const Result& result) {
     else
       text += fmt::format("  {:<{}} {:<{}} {:<34}{}\n", report.name, name, report.type, type, features, report.why);
   }
+  if (result.sides)
+    text += fmt::format("\n  right and left by up and front, probability {:.3f}\n", result.sides->probability);
   if (!result.measurements.all.empty()) text += measures_text(result.measurements);
   return text;
 }

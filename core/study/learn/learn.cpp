@@ -105,7 +105,7 @@ class Learner {
     }
     if (residuals.empty()) return;
     const double wanted = predict_deviation(residuals, coverage_);
-    if (wanted <= tolerance) return;
+    if (wanted <= tolerance || !relationship.because.empty()) return;  // what follows is not in the file
     learned_.lessons.push_back({{"relationships", relationship.name, "tolerance"},
                                 rounded(wanted, true) + (unit == "deg" ? "" : "*bb(O).a"),
                                 relationship.tolerance ? relationship.tolerance->text() : ""});

@@ -189,7 +189,8 @@ Judgement judge(const Result& result, const Analysis& analysis, const Model& giv
   // A renaming is of the posed features alone; all others keep their names.
   Judgement best;
   double best_excess = std::numeric_limits<double>::infinity();
-  for (const std::vector<Index>& renamed : renamings_of(posed, model, stations)) {
+  const auto names = posed.renamings.empty() ? renamings_of(posed, model, stations) : posed.renamings;
+  for (const std::vector<Index>& renamed : names) {
     std::vector<Index> name_of(model.features.size());
     std::iota(name_of.begin(), name_of.end(), 0);
     for (Index i = 0; i < renamed.size(); ++i) name_of[posed.features[i]] = posed.features[renamed[i]];

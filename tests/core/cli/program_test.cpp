@@ -122,9 +122,9 @@ TEST_F(Program, AModelNamesItsPipelineAndTheCommandLineWins) {
     const Outcome outcome = toposcope("run " + mesh("cup") + " --model " + model + " --json " + arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     std::string ids;
-    if (outcome.exit_code == 0)
-      for (const json& plugin : json::parse(outcome.out)["plugins"])
-        if (plugin["kind"] == "worksets") ids += plugin["id"].get<std::string>() + " ";
+    const json result = outcome.exit_code == 0 ? json::parse(outcome.out) : json{{"plugins", json::array()}};
+    for (const json& plugin : result["plugins"])
+      if (plugin["kind"] == "worksets") ids += plugin["id"].get<std::string>() + " ";
     return ids;
   };
   write_model("neal-1999");

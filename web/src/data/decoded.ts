@@ -99,6 +99,8 @@ export class Scene {
   }
 
   directions(middle: Point): Partial<Record<Axis, Point>> {
+    const told = this.document.result.directions;
+    if (told) return { up: told.up as Point, front: told.front as Point, right: told.right as Point };
     const places = new Map<string, Point>();
     for (const { name, drawing } of this.features) {
       const place = drawing && middleOf(drawing);
