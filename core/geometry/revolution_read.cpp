@@ -27,6 +27,7 @@ std::array<double, 2> RevolutionKind::sagittas(const Revolution& surface, const 
 namespace revolution {
 namespace {
 
+constexpr double chords_alone = 0.25;    // of the mean square distance: what is left without them
 constexpr std::size_t spare_points = 3;  // more than parameters, so that residuals say something
 
 /// Normal matrix per point of those within reach, with all parameters as lengths.
@@ -36,11 +37,14 @@ struct Information {
   Eigen::MatrixXd per_point() const { return sum / static_cast<double>(points.size()); }
 };
 
-std::size_t count_near(const RevolutionKind& kind, const Revolution& surface, std::span<const Vec3> points,
-                       double reach) {
-  return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [&](const Vec3& point) {
-    return std::abs(signed_distance(kind, kind.freedom(), surface, {}, point, nullptr)) <= reach;
-  }));
+/// Mean square of the distances, those beyond reach counted as reach.
+double mean_square(const RevolutionKind& kind, const Revolution& surface, std::span<const Vec3> points, double reach) {
+  double sum = 0;
+  for (const Vec3& point : points) {
+    const double d = std::abs(signed_distance(kind, kind.freedom(), surface, {}, point, nullptr));
+    sum += d <= reach ? d * d : reach * reach;
+  }
+  return sum / static_cast<double>(points.size());
 }
 
 }  // namespace
@@ -70,8 +74,9 @@ bool move_to_read(const RevolutionKind& kind, const FitInput& input, const Princ
     return false;
   if (!as_well_spread(read.per_point(), all.per_point())) return false;
   Estimate moved = estimate(kind, read.points, principal, noise_floor, &found.surface);
-  // Away from most of what it was to be moved to it is another surface.
-  if (!moved.summary.usable() || 2 * count_near(kind, moved.surface, read.points, reach) <= read.points.size())
+  // Where chords are not what most of the distances come from, there is nothing to gain from fewer points.
+  if (!moved.summary.usable() || !(mean_square(kind, moved.surface, read.points, reach) <=
+                                   chords_alone * mean_square(kind, found.surface, all.points, reach)))
     return false;
   moved.summary.iterations += found.summary.iterations;
   found = std::move(moved);

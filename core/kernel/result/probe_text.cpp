@@ -12,10 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 std::string bounds_text(const FeatureProbe& probe) {
   const CandidateCount& count = probe.count;
   std::string text = fmt::format("{}: {} on {}: {} groups, {} candidates", probe.name, probe.shape, probe.types,
@@ -45,7 +41,7 @@ std::string candidate_text(const ProbedCandidate& candidate) {
   std::string text = fmt::format(
       "  {}{:>3}  prob. {}  evidence {:.4g}  cost over missing {:.4g}{}\n       ", candidate.labelled ? "*" : " ",
       candidate.rank, std::isnan(candidate.probability) ? "-" : fmt::format("{:.3f}", candidate.probability),
-      candidate.evidence, candidate.cost, candidate.in_conflict ? "  shares its place with another feature" : "");
+      candidate.evidence, candidate.cost, candidate.in_conflict ? "  shares vertices with another feature" : "");
   for (const Measure& measure : candidate.shape.measures)
     text += fmt::format(" {} {:.4g}{}", measure.name, measure.value,
                         measure.sd > 0 ? fmt::format(" +- {:.2g}", measure.sd) : "");
@@ -63,8 +59,8 @@ std::string candidate_text(const ProbedCandidate& candidate) {
 Json relation_json(const RelationReport& relation) {
   Json object = {{"name", relation.name}, {"type", relation.type}, {"features", relation.features}};
   if (relation.tested && relation.applicable) {
-    object["residual"] = number(relation.residual);
-    object["tolerance"] = number(relation.tolerance);
+    object["residual"] = relation.residual;
+    object["tolerance"] = relation.tolerance;
     object["unit"] = relation.unit;
   } else {
     object["why"] = relation.why;
@@ -77,14 +73,14 @@ Json candidate_json(const ProbedCandidate& candidate) {
   Json object = {{"rank", candidate.rank},
                  {"labelled", candidate.labelled},
                  {"shares_vertices", candidate.in_conflict},
-                 {"probability", number(candidate.probability)},
-                 {"evidence", number(candidate.evidence)},
-                 {"cost_over_missing", number(candidate.cost)},
+                 {"probability", candidate.probability},
+                 {"evidence", candidate.evidence},
+                 {"cost_over_missing", candidate.cost},
                  {"parameters", parameters_json(candidate.shape.parameters)},
-                 {"fit_error", number(candidate.shape.rms)}};
+                 {"fit_error", candidate.shape.rms}};
   object["measures"] = Json::object();
   for (const Measure& measure : candidate.shape.measures)
-    object["measures"][measure.name] = {{"value", number(measure.value)}, {"sd", number(measure.sd)}};
+    object["measures"][measure.name] = {{"value", measure.value}, {"sd", measure.sd}};
   object["relations"] = Json::array();
   for (const RelationReport& relation : candidate.relations) object["relations"].push_back(relation_json(relation));
   return object;
@@ -95,18 +91,14 @@ Json probe_json(const FeatureProbe& probe) {
                  {"unusable", probe.count.unusable}, {"kept", probe.count.kept}, {"beaten", probe.count.beaten}};
   object["broken_bounds"] = Json::array();
   for (const BoundCount& bound : probe.count.bounds)
-    object["broken_bounds"].push_back({{"bound", bound.words},
-                                       {"groups", bound.groups},
-                                       {"nearest", number(bound.nearest)},
-                                       {"limit", number(bound.limit)}});
+    object["broken_bounds"].push_back(
+        {{"bound", bound.words}, {"groups", bound.groups}, {"nearest", bound.nearest}, {"limit", bound.limit}});
   object["candidates"] = Json::array();
   for (const ProbedCandidate& candidate : probe.candidates) object["candidates"].push_back(candidate_json(candidate));
   object["changes"] = Json::array();
   for (const NeededChange& change : probe.changes)
-    object["changes"].push_back({{"bound", change.bound},
-                                 {"value", number(change.value)},
-                                 {"limit", number(change.limit)},
-                                 {"remedy", change.remedy}});
+    object["changes"].push_back(
+        {{"bound", change.bound}, {"value", change.value}, {"limit", change.limit}, {"remedy", change.remedy}});
   object["changes_suffice"] = probe.enough;
   return object;
 }

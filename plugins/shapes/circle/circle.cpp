@@ -88,11 +88,11 @@ bool move_to_read(const FitInput& input, double reach, double noise_floor, Estim
   if (read.points.size() == all.points.size() || read.points.size() < least) return false;
   if (!as_well_spread(read.per_point(), all.per_point())) return false;
   Estimate moved = refit(read.points, estimate.circle, noise_floor);
-  const auto near = std::count_if(read.points.begin(), read.points.end(), [&](const Vec3& point) {
-    return squared_distance(moved.circle, point) <= reach * reach;
-  });
-  // Away from most of what it was to be moved to it is another circle.
-  if (!moved.summary.usable() || 2 * static_cast<std::size_t>(near) <= read.points.size()) return false;
+  double squares = 0;
+  for (const Vec3& point : read.points) squares += std::min(squared_distance(moved.circle, point), reach * reach);
+  // Where chords are not what most of the distances come from, there is nothing to gain from fewer points.
+  constexpr double chords_alone = 0.25;
+  if (!moved.summary.usable() || !(squares / read.count() <= chords_alone * all.squares / all.count())) return false;
   moved.summary.iterations += estimate.summary.iterations;
   estimate = std::move(moved);
   return true;
