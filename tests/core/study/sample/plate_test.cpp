@@ -178,7 +178,8 @@ TEST(DrilledPlate, ContradictionsAreRefused) {
   };
   EXPECT_NE(refused("plate", {{"bolt_holes", 2}}).find("bolt_holes is 2: a circle takes three"), std::string::npos);
   EXPECT_NE(refused("plate", {{"holes", 60}}).find("holes is 60: with those of the bolt circle"), std::string::npos);
-  EXPECT_NE(refused("plate", {{"holes", 50}, {"hole_radius", 12}, {"slots", 0}, {"hexagons", 0}}).find("holes is 50: there is no room"),
+  EXPECT_NE(refused("plate", {{"holes", 50}, {"hole_radius", 12}, {"slots", 0}, {"hexagons", 0}})
+                .find("holes is 50: there is no room"),
             std::string::npos);
   EXPECT_NE(refused("plate", {{"bolt_holes", 24}, {"bolt_circle_radius", 10}}).find("bolt_circle_radius is 10"),
             std::string::npos);
