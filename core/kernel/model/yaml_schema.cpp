@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/yaml_schema.h"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
 #include <regex>
+#include <sstream>
 #include <utility>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -215,6 +218,34 @@ class Merger {
 
 }  // namespace
 
+namespace {
+
+/// Sees documents go by.
+struct Unmoved final : YAML::EventHandler {
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// How many documents a text holds, counted to two: of a comma where a document begins yaml-cpp makes documents without
+/// end, and LoadAll fills the memory with them.
+int documents_of(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Unmoved handler;
+  int count = 0;
+  while (count < 2 && parser.HandleNextDocument(handler)) ++count;
+  return count;
+}
+
+}  // namespace
+
 SourceLocation location_of(const YAML::Node& node, const std::string& file) {
   const YAML::Mark mark = node.Mark();
   const bool quoted = node.IsScalar() && node.Tag() == "!";
@@ -223,12 +254,13 @@ SourceLocation location_of(const YAML::Node& node, const std::string& file) {
 
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() != 1)
-      throw UsageError(file + ":1:1: the file holds " + std::to_string(documents.size()) +
-                       " YAML documents; write exactly one");
-    Merger(file).expand(documents[0]);
-    return documents[0];
+    const int documents = documents_of(text);
+    if (documents != 1)
+      throw UsageError(file + ":1:1: the file holds " +
+                       (documents == 0 ? "no YAML document" : "several YAML documents") + "; write exactly one");
+    const YAML::Node root = YAML::Load(text);
+    Merger(file).expand(root);
+    return root;
   } catch (const YAML::Exception& error) {
     throw UsageError(SourceLocation{file, error.mark.line + 1, error.mark.column + 1}.str() +
                      ": not YAML: " + error.msg + "; check indentation, brackets and quotes");

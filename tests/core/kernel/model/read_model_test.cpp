@@ -130,7 +130,8 @@ TEST_F(ReadModel, YamlErrorsNameThePlace) {
   EXPECT_THAT(error_with("  cup: volume", "  ? [a, b]\n  : volume"), StartsWith("m.yaml:4:5: a key must be"));
   EXPECT_THAT(error_of(""), StartsWith("m.yaml:1:1: "));
   EXPECT_THAT(error_of("just words"), AllOf(StartsWith("m.yaml:1:1: "), HasSubstr("is 'just words'")));
-  EXPECT_THAT(error_of(sound_model + "---\n" + sound_model), HasSubstr("2 YAML documents"));
+  EXPECT_THAT(error_of(sound_model + "---\n" + sound_model), HasSubstr("several YAML documents"));
+  EXPECT_THAT(error_of(",PX-"), HasSubstr("several YAML documents")) << "yaml-cpp makes documents of it without end";
 }
 
 TEST_F(ReadModel, AliasesCannotBlowUp) {
