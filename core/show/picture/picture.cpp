@@ -206,7 +206,25 @@ PictureStyle thumbnail_style(int width, int height) {
   return style;
 }
 
-Image draw_picture(const Composition& composition, const Camera& camera, const PictureStyle& style, Context& context) {
+int drawn_samples(const Composition& composition, const Camera& camera, const PictureStyle& style) {
+  constexpr double most_drawn = 1e9;  // of all triangles: a cup in a picture of usual size has 3e7
+  const double frame = static_cast<double>(style.width) * style.height;
+  double pixels = 0;
+  for (const ShadedMesh* mesh : {&composition.surface, &composition.lines, &composition.sheets})
+    for (const Triangle& t : mesh->triangles) {
+      const Camera::Projected a = camera(mesh->positions[t[0]]), b = camera(mesh->positions[t[1]]),
+                              c = camera(mesh->positions[t[2]]);
+      const double area = std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
+      pixels += area < frame ? area : frame;
+    }
+  int samples = style.samples;
+  while (samples > 1 && pixels * samples * samples > most_drawn) --samples;
+  return samples;
+}
+
+Image draw_picture(const Composition& composition, const Camera& camera, const PictureStyle& wanted, Context& context) {
+  PictureStyle style = wanted;
+  style.samples = drawn_samples(composition, camera, wanted);
   Painter painter(composition, camera, style, context);
   const int rows = std::max(1, strip_samples / (style.width * style.samples * style.samples));
   const std::size_t strips = static_cast<std::size_t>((style.height + rows - 1) / rows);

@@ -21,6 +21,10 @@ struct PictureStyle {
 /// A small one: fewer samples of light.
 PictureStyle thumbnail_style(int width = 240, int height = 180);
 
+/// Samples per pixel and direction that are drawn: the style's, or fewer where triangles lie over each other so many
+/// times that drawing them all would take minutes.
+int drawn_samples(const Composition& composition, const Camera& camera, const PictureStyle& style);
+
 /// Draws without a display; the same at any thread count.
 Image draw_picture(const Composition& composition, const Camera& camera, const PictureStyle& style, Context& context);
 

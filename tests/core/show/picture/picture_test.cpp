@@ -198,18 +198,38 @@ TEST(SkyLight, IsDarkInHollows) {
     EXPECT_NEAR(around.at(n, n), around.open(n), 0.02F * around.open(n));
 }
 
-/// Faces that fill the box over and over get maps that together have no more pixels than can be drawn in seconds.
-TEST(SkyLight, DrawsSoMuchAndNoMore) {
-  const ShadedMesh sphere = solid_of(test::make_sphere(4), red);
-  EXPECT_EQ(light_map_side(sphere, 192, 176), 176);
-  ShadedMesh fan;  // half-planes about one edge
-  constexpr Index blades = 5000;
+/// Half-planes about one edge, which fill the box over and over.
+ShadedMesh fan_of(Index blades) {
+  ShadedMesh fan;
   fan.positions = {Vec3(0, 0, -1), Vec3(0, 0, 1)};
   for (Index i = 0; i < blades; ++i) {
     const double angle = 2 * pi * i / blades;
     fan.positions.emplace_back(std::cos(angle), std::sin(angle), 0);
     fan.triangles.push_back({0, 1, i + 2});
   }
+  return fan;
+}
+
+TEST(Picture, DrawsSoMuchAndNoMore) {
+  const auto samples = [](ShadedMesh surface, int width, int height) {
+    Composition composition;
+    composition.surface = std::move(surface);
+    PictureStyle style;
+    style.width = width;
+    style.height = height;
+    return drawn_samples(composition, camera_for({}, {}, composition.surface.positions, width, height), style);
+  };
+  EXPECT_EQ(samples(solid_of(test::make_sphere(4), red), 1200, 900), 3);
+  EXPECT_EQ(samples(fan_of(5000), 1200, 900), 1);
+  EXPECT_EQ(samples(fan_of(5000), 120, 90), 3) << "small pictures can be afforded";
+}
+
+/// Maps together have no more pixels than can be drawn in seconds.
+TEST(SkyLight, DrawsSoMuchAndNoMore) {
+  const ShadedMesh sphere = solid_of(test::make_sphere(4), red);
+  EXPECT_EQ(light_map_side(sphere, 192, 176), 176);
+  constexpr Index blades = 5000;
+  const ShadedMesh fan = fan_of(blades);
   const int side = light_map_side(fan, 192, 176);
   EXPECT_GE(side, 24);
   EXPECT_LE(192.0 * side * side * blades / 4, 6e8);  // each blade has a quarter of the box's square
