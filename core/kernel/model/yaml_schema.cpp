@@ -216,10 +216,6 @@ class Merger {
   std::size_t visited_ = 0;
 };
 
-}  // namespace
-
-namespace {
-
 /// Sees documents go by.
 struct Unmoved final : YAML::EventHandler {
   void OnDocumentStart(const YAML::Mark&) override {}
